@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace pdc {
+
+/// What `pdc info` says about a file: the grids of a .vdb, the box and lattice of a scene, or the report on a mesh.
+/// \throws Error for files that cannot be read.
+[[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
+
+}  // namespace pdc

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "info_command.h"
+#include "interrupt.h"
+#include "mesh_command.h"
+#include "pdc/error.h"
+
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
+
+int fail(int exitCode, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fputs(fmt::format("pdc: {}\n", message).c_str(), stderr);
+  return exitCode;
+}
+
+void run(int argc, char** argv) {
+  CLI::App app("Turns volumes (OpenVDB grids, implicit scenes) into meshes.", "pdc");
+  app.set_version_flag("--version", "pdc " PDC_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n"
+      "`pdc COMMAND --help` lists the options of a command.");
+
+  pdc::MeshRequest mesh;
+  CLI::App* meshCommand = app.add_subcommand("mesh", "Contour a grid or a scene and write the mesh");
+  pdc::addMeshOptions(*meshCommand, mesh);
+  meshCommand->footer("Example: pdc mesh part.vdb part.ply --sigma-n 0.02 --json part.json");
+  pdc::InfoRequest info;
+  CLI::App* infoCommand = app.add_subcommand("info", "Say what is in a grid file, a scene or a mesh");
+  pdc::addInfoOptions(*infoCommand, info);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return;
+  }
+  if (meshCommand->parsed()) pdc::runMesh(mesh);
+  if (infoCommand->parsed()) pdc::runInfo(info);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  pdc::installInterruptHandler();
+  try {
+    run(argc, argv);
+    if (std::fflush(stdout) != 0) return fail(kFailed, "cannot write to standard output");
+    return kDone;
+  } catch (const CLI::ParseError& e) {
+    return fail(kUsage, std::string(e.what()) + " (see pdc --help)");
+  } catch (const pdc::Cancelled&) {
+    std::fputs(pdc::kInterruptedMessage.data(), stderr);
+    return pdc::kInterruptedExitCode;
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(kFailed, e.what());
+  }
+}

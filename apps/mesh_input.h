@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "mesh_request.h"
+#include "pdc/sample/hermite_source.h"
+
+namespace pdc {
+
+/// An input that is ready to be contoured.
+struct MeshInput {
+  std::unique_ptr<const HermiteSource> source;
+  double iso = 0;
+  double sigmaNormal = 0;                 ///< What the input says, or the library's default.
+  std::function<std::string()> whyEmpty;  ///< Says in a clause why there is no surface; may read the file again.
+};
+
+/// Reads the grid or the scene. \throws Error.
+[[nodiscard]] MeshInput openMeshInput(const MeshRequest& request);
+
+}  // namespace pdc

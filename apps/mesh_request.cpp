@@ -1,0 +1,113 @@
+#include "mesh_request.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "input_kind.h"
+#include "numbers.h"
+#include "pdc/error.h"
+
+namespace pdc {
+namespace {
+
+// FieldSource's own limit on voxels per axis.
+constexpr int kMaxResolution = 1 << 20;
+constexpr int kMaxThreads = 4096;
+
+void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  const auto group = "Surface";
+  addReal(command, "--iso", request.iso, finite, "a finite number",
+          "Isovalue (level sets and scenes: 0, fog volumes: 0.5)")
+      ->type_name("V")
+      ->group(group);
+  addReal(
+      command, "--sigma-n", request.sigmaNormal, [](double v) { return v >= 0; }, "a number >= 0 or inf",
+      "Assumed noise of the unit normals (0.05)")
+      ->type_name("S|inf")
+      ->group(group);
+  command.add_option("--placement", request.placement, "Vertices stay in their cell, or may leave it (cell)")
+      ->type_name("WHERE")
+      ->check(CLI::IsMember({"cell", "free"}))
+      ->group(group);
+  command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
+  command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
+  command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
+  command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
+}
+
+void addInputOptions(CLI::App& command, MeshRequest& request) {
+  const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
+  const auto grids = "For .vdb inputs";
+  command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
+  command.add_option("--nan", request.nan, "What NaN and infinite voxels are (error)")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"error", "outside"}))
+      ->group(grids);
+  const auto scenes = "For scenes";
+  addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
+      ->type_name("H")
+      ->group(scenes);
+  addInteger(command, "--resolution", request.resolution, 1, kMaxResolution, "Cells along the longest side of the box")
+      ->type_name("N")
+      ->group(scenes);
+}
+
+void refuseOther(bool given, const char* name, const char* takers) {
+  if (given) throw CLI::ValidationError(name, fmt::format("goes with {} only", takers));
+}
+
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal() ||
+         std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
+  return {.sigmaNormal = sigmaNormal.value_or(assumedSigma),
+          .placement = placement == "free" ? Placement::kFree : Placement::kCell,
+          .triangles = triangles,
+          .normals = normals,
+          .threads = threads.value_or(0)};
+}
+
+void addMeshOptions(CLI::App& command, MeshRequest& request) {
+  command.add_option("INPUT", request.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
+  command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  addSurfaceOptions(command, request);
+  addInputOptions(command, request);
+  const auto group = "Output";
+  command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
+  command.add_option("--json", request.json, "Report for programs; - is standard output")
+      ->type_name("FILE")
+      ->group(group);
+  command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
+  addInteger(command, "--threads", request.threads, 0, kMaxThreads, "0 is all (0); the result does not depend on it")
+      ->type_name("N")
+      ->group(group);
+}
+
+void checkMeshRequest(const MeshRequest& request) {
+  switch (inputKind(request.input)) {
+    case InputKind::kGrid:
+      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
+      refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      break;
+    case InputKind::kScene:
+      refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
+      refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
+      break;
+    case InputKind::kOther:
+      throw Error(
+          fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
+  }
+  if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
+  if (request.json.empty()) return;
+  if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");
+  if (sameFile(request.json, request.output)) throw CLI::ValidationError("--json", "would replace OUTPUT");
+}
+
+}  // namespace pdc

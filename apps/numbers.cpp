@@ -1,0 +1,47 @@
+#include "numbers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace pdc {
+namespace {
+
+template <typename Number>
+std::optional<Number> parse(const std::string& text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& limit) {
+  throw CLI::ValidationError(name, fmt::format("'{}' is not {}", text, limit));
+}
+
+}  // namespace
+
+CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<double>& target,
+                     std::function<bool(double)> accepts, const std::string& limit, const std::string& help) {
+  const auto take = [name, limit, &target, accepts = std::move(accepts)](const std::string& text) {
+    const auto value = parse<double>(text);
+    if (!value || std::isnan(*value) || !accepts(*value)) refuse(name, text, limit);
+    target = *value;
+  };
+  return command.add_option_function<std::string>(name, take, help);
+}
+
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
+                        const std::string& help) {
+  const auto take = [name, lo, hi, &target](const std::string& text) {
+    const auto value = parse<int>(text);
+    if (!value || *value < lo || *value > hi) refuse(name, text, fmt::format("a whole number from {} to {}", lo, hi));
+    target = *value;
+  };
+  return command.add_option_function<std::string>(name, take, help);
+}
+
+}  // namespace pdc

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace pdc {
+
+/// An option that takes a real number, read strictly: all of the text, decimal, no NaN; `inf` only where `accepts`
+/// takes infinity. What is refused is a usage error that names the option, the text and `limit`.
+CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<double>& target,
+                     std::function<bool(double)> accepts, const std::string& limit, const std::string& help);
+
+/// As addReal, for a whole number in [lo, hi].
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
+                        const std::string& help);
+
+}  // namespace pdc

@@ -1,0 +1,11 @@
+# Flags for our own targets only. Results must not depend on what a compiler fuses, so contraction is off.
+# clang++ counts signed indices into std::array as conversions; g++ does not.
+add_library(pdc_options INTERFACE)
+target_compile_options(pdc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+if(PDC_WERROR)
+  target_compile_options(pdc_options INTERFACE -Werror)
+endif()
+if(PDC_SANITIZE)
+  target_compile_options(pdc_options INTERFACE -fsanitize=${PDC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(pdc_options INTERFACE -fsanitize=${PDC_SANITIZE})
+endif()

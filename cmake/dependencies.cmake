@@ -1,0 +1,14 @@
+# What the library needs. Also installed with the package, whose config file includes it.
+# Debian keeps FindOpenVDB.cmake beside its library rather than among CMake's own modules.
+list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
+
+find_package(TBB REQUIRED)
+# OpenVDB's module turns BUILD_SHARED_LIBS on for whoever calls it.
+set(pdc_saved_build_shared_libs "${BUILD_SHARED_LIBS}")
+find_package(OpenVDB REQUIRED COMPONENTS openvdb)
+set(BUILD_SHARED_LIBS "${pdc_saved_build_shared_libs}")
+unset(pdc_saved_build_shared_libs)
+find_package(OpenMesh REQUIRED)
+find_package(fmt REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(muparser REQUIRED)

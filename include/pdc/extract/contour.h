@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+
+#include "pdc/mesh/mesh.h"
+#include "pdc/sample/hermite_source.h"
+
+namespace pdc {
+
+/// Where a vertex may lie.
+enum class Placement {
+  kCell,  ///< In its own cell: the minimiser of the quadric over the cell.
+  kFree,  ///< Anywhere within 1.5 voxels of its cell: sharper, but faces may intersect.
+};
+
+struct ContourOptions {
+  /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric with a
+  /// pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's experiments.
+  double sigmaNormal = 0.05;
+  Placement placement = Placement::kCell;
+  bool triangles = false;  ///< Triangles instead of quads.
+  bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
+  int threads = 0;         ///< 0: all. The result does not depend on it, byte for byte.
+};
+
+/// Counts of one contour() call; no verdicts.
+struct ContourReport {
+  std::size_t blocks = 0;              ///< Blocks that hold surface.
+  std::size_t crossings = 0;           ///< Sign-changing edges with a face.
+  std::size_t outOfCell = 0;           ///< Vertices whose unconstrained minimiser lay outside their cell.
+  std::size_t clamped = 0;             ///< Vertices that were moved to meet the placement's bound.
+  std::size_t boundaryEdges = 0;       ///< Edges of the mesh with one face; 0 unless the source is open.
+  std::size_t multiVertexCells = 0;    ///< Cells with more than one vertex.
+  std::size_t crossingsWithoutNormal = 0;  ///< Crossings used as points because no normal was found.
+};
+
+/// Dual contouring with probabilistic plane quadrics (Ju et al. 2002; Trettner & Kobbelt 2020, equations 6-8, section 5.1).
+///
+/// One vertex per surface cycle of a cell; one quad per sign-changing lattice edge whose four cells take part, split along
+/// the diagonal of smaller quadric error.
+/// Guaranteed: every edge has at most two faces, every vertex one fan of faces (a manifold, for any signs); no boundary unless
+/// the source is open; faces counter-clockwise seen from outside; the same bytes for any number of threads.
+/// Not guaranteed: absence of self-intersections.
+/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads; Error if the mesh would have more than
+/// 2^32 vertices, before any is made; Cancelled; whatever the source throws.
+[[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {}, ContourReport* report = nullptr,
+                           const Monitor& monitor = {});
+
+}  // namespace pdc

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+
+#include "pdc/math/interval.h"
+
+namespace pdc {
+
+/// Points to evaluate, one array per coordinate. size <= Field::kMaxBatch.
+struct PointSpan {
+  const double* x;
+  const double* y;
+  const double* z;
+  std::size_t size;
+};
+
+/// Where gradients go, one array per component, as long as the points'.
+struct GradientSpan {
+  double* x;
+  double* y;
+  double* z;
+};
+
+/// A scalar function of space; negative inside. Immutable and safe to evaluate from many threads at once.
+///
+/// Work is done in batches, so that the cost of a virtual call is shared and the loops inside vectorise. The result for a
+/// point must not depend on the other points of its batch: neighbouring blocks evaluate shared lattice points separately
+/// and must agree.
+class Field {
+ public:
+  /// Largest batch; implementations keep their temporaries in arrays of this length on the stack.
+  static constexpr std::size_t kMaxBatch = 256;
+
+  virtual ~Field() = default;
+
+  /// values[i] = f(p_i). NaN is allowed where the function has no value; the sampler reads it as outside.
+  virtual void values(PointSpan points, double* values) const = 0;
+
+  /// values as above, and the gradient at each point. Where the function has a crease the gradient of one of its sides;
+  /// where it has none at all, zero or NaN, which the sampler treats as "no normal".
+  virtual void gradients(PointSpan points, double* values, GradientSpan gradients) const = 0;
+
+  /// A range that contains f over the whole box (closed, lo <= hi). Interval::whole() if nothing is known, which costs
+  /// the sampler its pruning there, never correctness.
+  [[nodiscard]] virtual Interval bound(const Box& box) const = 0;
+
+  /// A constant L with |f(p) - f(q)| <= L |p - q| everywhere, infinity if none is known. It keeps bounds tight where boxes
+  /// are turned.
+  [[nodiscard]] virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
+
+  /// One point; for tests and occasional use.
+  [[nodiscard]] double valueAt(const Vec3d& p) const;
+  [[nodiscard]] Vec3d gradientAt(const Vec3d& p) const;
+};
+
+using FieldPtr = std::shared_ptr<const Field>;
+
+}  // namespace pdc

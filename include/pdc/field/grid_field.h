@@ -1,0 +1,14 @@
+#pragma once
+
+#include <openvdb/Grid.h>
+
+#include "pdc/field/field.h"
+
+namespace pdc {
+
+/// A scalar OpenVDB grid as a field: trilinear interpolation of (value - iso), or (iso - value) if insideIsHigher, with the
+/// interpolant's own gradient, through the grid's transform. Bounds come from stored value ranges of blocks of voxels.
+/// Float and double grids with an affine transform; others throw Error.
+FieldPtr gridField(openvdb::GridBase::ConstPtr grid, double iso, bool insideIsHigher);
+
+}  // namespace pdc

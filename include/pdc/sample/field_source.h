@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pdc/field/field.h"
+#include "pdc/sample/hermite_source.h"
+
+namespace pdc {
+
+struct FieldSourceOptions {
+  Box box;               ///< World units. The surface is looked for inside it.
+  double voxelSize = 0;  ///< World units, > 0. The lattice starts at box.lo; at most 2^20 voxels per axis.
+  double iso = 0;        ///< The surface is where the field equals this.
+  /// false: the solid is cut off at the box and the mesh is closed. true: the surface ends within a voxel of the box.
+  bool open = false;
+};
+
+/// An implicit function on a uniform lattice.
+///
+/// Blocks are found by descending from the box and dropping every box whose bound() excludes the iso value, so time and
+/// memory grow with the surface. Where bound() is infinite on a side and decides nothing, a block is first sampled
+/// every fourth lattice point; the surface is then followed across block faces from where it was seen, so only
+/// components that slip through that coarse lattice altogether are missed. Crossings are bracketed to 2^-20 of the
+/// edge; normals are the field's gradients there, and, where those are not finite or zero, central differences. \throws
+/// Error for an empty box, a voxel size that is not positive, gives too many voxels or is below 2^-32 of the box's
+/// coordinates; std::invalid_argument for null.
+class FieldSource final : public HermiteSource {
+ public:
+  FieldSource(FieldPtr field, const FieldSourceOptions& options);
+
+  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
+  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                   HermiteBlock& hermite) const override;
+  [[nodiscard]] const LatticeMap& map() const override { return mMap; }
+
+ private:
+  FieldPtr mField;
+  FieldSourceOptions mOptions;
+  LatticeMap mMap;
+};
+
+}  // namespace pdc

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "pdc/mesh/mesh.h"
+#include "pdc/monitor.h"
+#include "pdc/sample/hermite_block.h"
+#include "pdc/sample/lattice_map.h"
+
+namespace pdc {
+
+/// The blocks that hold surface, with their signs; coords[i] belongs to signs[i].
+struct SurfaceBlocks {
+  std::vector<Coord> coords;
+  Buffer<BlockSigns> signs;
+  bool open = false;  ///< True if some cells may not take part; false promises that all do.
+
+};
+
+/// An input that can be contoured. Immutable; its functions may be called from many threads at once.
+class HermiteSource {
+ public:
+  virtual ~HermiteSource() = default;
+
+  /// All blocks with a sign change, each once, in an order that does not depend on threads. Signs of points that two blocks
+  /// share agree. Closed under continuation: if points on the face between two blocks differ in sign, both blocks are there
+  /// (unless no cell of the other one takes part).
+  /// Runs in parallel on the calling thread's arena. \throws Cancelled, Error (non-finite input that was not accepted).
+  [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+
+  /// Fills crossings and normals of one block for the edges of `edges`, which was made from `signs`. Does not allocate.
+  virtual void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                           HermiteBlock& hermite) const = 0;
+
+  /// Lattice to world.
+  [[nodiscard]] virtual const LatticeMap& map() const = 0;
+};
+
+}  // namespace pdc

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "pdc/math/mat3.h"
+
+namespace pdc {
+
+/// From lattice (index) space to world space: affine, or any smooth map with its Jacobian (a frustum).
+class LatticeMap {
+ public:
+  using PositionFunction = std::function<Vec3d(const Vec3d&)>;
+  using JacobianFunction = std::function<Mat3d(const Vec3d&)>;
+
+  /// x_world = linear · x + translation. \throws Error if `linear` is singular or not finite.
+  LatticeMap(const Mat3d& linear, const Vec3d& translation);
+  /// A map that is not affine. The determinant of the Jacobian must keep its sign, which is taken at `somewhere`.
+  LatticeMap(PositionFunction position, JacobianFunction jacobian, const Vec3d& somewhere);
+
+  [[nodiscard]] bool affine() const { return !mPosition; }
+  [[nodiscard]] Vec3d position(const Vec3d& x) const { return affine() ? mLinear * x + mTranslation : mPosition(x); }
+  /// d(position)/dx, columns are the images of the lattice axes.
+  [[nodiscard]] Mat3d jacobian(const Vec3d& x) const { return affine() ? mLinear : mJacobian(x); }
+  /// True if the map turns right-handed frames into left-handed ones, so that faces must be wound the other way.
+  [[nodiscard]] bool mirrored() const { return mMirrored; }
+  /// Cube root of the volume of a voxel (for a frustum: at the place given), in world units.
+  [[nodiscard]] double voxelSize() const { return mVoxelSize; }
+
+ private:
+  Mat3d mLinear;
+  Vec3d mTranslation{};
+  PositionFunction mPosition;
+  JacobianFunction mJacobian;
+  bool mMirrored = false;
+  double mVoxelSize = 1.0;
+};
+
+}  // namespace pdc

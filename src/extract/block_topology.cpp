@@ -1,0 +1,224 @@
+#include "extract/block_topology.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "extract/block_progress.h"
+
+namespace pdc::detail {
+namespace {
+
+/// Bits z of the cells of a row whose corners are not all on one side.
+unsigned mixedCells(const BlockSigns& s, int x, int y) {
+  const unsigned r00 = s.row[kBlockPoints * x + y], r01 = s.row[kBlockPoints * x + y + 1];
+  const unsigned r10 = s.row[kBlockPoints * (x + 1) + y], r11 = s.row[kBlockPoints * (x + 1) + y + 1];
+  const unsigned any = r00 | r01 | r10 | r11, all = r00 & r01 & r10 & r11;
+  return (any | any >> 1) & ~(all & all >> 1) & 0xFF;
+}
+
+/// Counts one block. Cells up to one beyond the block on each side are reached through the neighbouring blocks.
+class BlockCounter {
+ public:
+  BlockCounter(const SurfaceBlocks& blocks, const BlockIndex& index, FlipRule rule, std::size_t i, BlockTopology& out)
+      : mBlocks(blocks), mIndex(index), mRule(rule), mCoord(blocks.coords[i]), mSigns(blocks.signs[i]), mOut(out) {}
+
+  void run() {
+    findLowerNeighbours();
+    findCellsAndEdges();
+    if (mBlocks.open) dropIncompleteEdges();
+    findSpecialCells();
+    std::uint16_t before = 0;
+    for (int row = 0; row < kBlockSize * kBlockSize; ++row) {
+      mOut.cellsBefore[row] = before;
+      before = static_cast<std::uint16_t>(before + kBitCount[mOut.cells.word[row >> 3] >> 8 * (row & 7) & 0xFF]);
+    }
+    mOut.vertexCount = before;
+    if (!mOut.special.empty()) mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
+    for (const CellMask& m : mOut.edges) mOut.quadCount += static_cast<std::uint32_t>(m.count());
+  }
+
+ private:
+  void findLowerNeighbours() {
+    for (int i = 0; i < 8; ++i)
+      mOut.lower[i] = mIndex.find({mCoord[0] - (i >> 2), mCoord[1] - (i >> 1 & 1), mCoord[2] - (i & 1)});
+  }
+
+  void findCellsAndEdges() {
+    for (int x = 0; x < kBlockSize; ++x) {
+      std::uint64_t cells = 0;
+      std::array<std::uint64_t, 3> edges{};
+      for (int y = 0; y < kBlockSize; ++y) {
+        const unsigned r = mSigns.row[kBlockPoints * x + y];
+        const unsigned ry = mSigns.row[kBlockPoints * x + y + 1], rx = mSigns.row[kBlockPoints * (x + 1) + y];
+        cells |= std::uint64_t{mixedCells(mSigns, x, y)} << 8 * y;
+        edges[0] |= std::uint64_t{(r ^ rx) & 0xFF} << 8 * y;
+        edges[1] |= std::uint64_t{(r ^ ry) & 0xFF} << 8 * y;
+        edges[2] |= std::uint64_t{(r ^ r >> 1) & 0xFF} << 8 * y;
+      }
+      mOut.cells.word[x] = cells & mSigns.cells.word[x];
+      for (int a = 0; a < 3; ++a) mOut.edges[a].word[x] = edges[a];
+    }
+  }
+
+  /// The block that holds a cell given relative to this one, from -8 to 15 on each axis; null if it has no surface.
+  const BlockSigns* blockAt(int x, int y, int z) const {
+    const Coord c{mCoord[0] + (x >> 3), mCoord[1] + (y >> 3), mCoord[2] + (z >> 3)};
+    if (c == mCoord) return &mSigns;
+    const std::int32_t i = mIndex.find(c);
+    return i == BlockIndex::kMissing ? nullptr : &mBlocks.signs[i];
+  }
+
+  bool takesPart(int x, int y, int z) const {
+    const BlockSigns* s = blockAt(x, y, z);
+    return s != nullptr && s->cells.test(x & 7, y & 7, z & 7);
+  }
+
+  /// True if all four cells about the edge from lattice point p take part.
+  bool hasQuad(int axis, const Coord& p) const {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int k = 0; k < 4; ++k) {
+      Coord c = p;
+      c[u] -= k & 1;
+      c[v] -= k >> 1;
+      if (!takesPart(c[0], c[1], c[2])) return false;
+    }
+    return true;
+  }
+
+  void dropIncompleteEdges() {
+    for (int a = 0; a < 3; ++a)
+      for (int x = 0; x < kBlockSize; ++x)
+        for (std::uint64_t w = mOut.edges[a].word[x]; w != 0; w &= w - 1) {
+          const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
+          if (!hasQuad(a, {x, y, z})) mOut.edges[a].reset(x, y, z);
+        }
+  }
+
+  /// Sign-changing edges of a cell that have a quad.
+  unsigned presentEdges(int x, int y, int z, unsigned edges) const {
+    unsigned present = 0;
+    for (unsigned e = edges; e != 0; e &= e - 1) {
+      const int edge = std::countr_zero(e), low = edgeLowCorner(edge);
+      if (hasQuad(edgeAxis(edge), {x + (low & 1), y + (low >> 1 & 1), z + (low >> 2)})) present |= 1u << edge;
+    }
+    return present;
+  }
+
+  /// The symmetric rule: a cell is flipped if the cell beyond its ambiguous face is of the same kind.
+  bool flips(int x, int y, int z, const CellEntry& entry) const {
+    if (entry.flipFace == kNone || mRule == FlipRule::kNever) return false;
+    Coord c{x, y, z};
+    c[entry.flipFace / 2] += (entry.flipFace & 1) ? 1 : -1;
+    const BlockSigns* s = blockAt(c[0], c[1], c[2]);
+    return s != nullptr && kCellTable[cellCode(*s, c[0] & 7, c[1] & 7, c[2] & 7)].flipFace != kNone;
+  }
+
+  void findSpecialCells() {
+    for (int x = 0; x < kBlockSize; ++x)
+      for (std::uint64_t w = mOut.cells.word[x]; w != 0; w &= w - 1) {
+        const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
+        const int code = cellCode(mSigns, x, y, z);
+        const CellEntry& entry = kCellTable[code];
+        const bool flip = flips(x, y, z, entry);
+        const Patches& patches = flip ? entry.flipped : entry.patches;
+        if (mBlocks.open) {
+          addOpenCell(x, y, z, code, flip, patches);
+        } else if (patches.count > 1) {
+          addSpecial(64 * x + bit, patches, patches);
+        }
+      }
+  }
+
+  void addOpenCell(int x, int y, int z, int code, bool flip, const Patches& patches) {
+    const unsigned edges = kCellTable[code].edges;
+    const unsigned present = presentEdges(x, y, z, edges);
+    if (present == edges) {
+      if (patches.count > 1) addSpecial(64 * x + 8 * y + z, patches, patches);
+      return;
+    }
+    if (present == 0) return mOut.cells.reset(x, y, z);
+    // Each run of quads gets a copy of the vertex: sharing one would pinch the surface at a point.
+    const Patches arcs = connect(segments(code, flip), present);
+    unsigned open = 0;
+    for (unsigned e = edges; e != 0; e &= e - 1) {
+      const int edge = std::countr_zero(e);
+      if ((present >> edge & 1) != 0) continue;
+      for (int other = 0; other < kEdges; ++other)
+        if ((present >> other & 1) != 0 && patches.vertex[other] == patches.vertex[edge]) open |= 1u << arcs.vertex[other];
+    }
+    mOut.openArcs += static_cast<std::uint32_t>(std::popcount(open));
+    addSpecial(64 * x + 8 * y + z, arcs, patches);
+  }
+
+  void addSpecial(int cell, const Patches& vertices, const Patches& patches) {
+    int extra = 0;
+    if (!mOut.special.empty()) extra = mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1;
+    mOut.special.push_back(
+        {static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extra), vertices.vertex, patches.vertex});
+  }
+
+  const SurfaceBlocks& mBlocks;
+  const BlockIndex& mIndex;
+  const FlipRule mRule;
+  const Coord mCoord;
+  const BlockSigns& mSigns;
+  BlockTopology& mOut;
+};
+
+}  // namespace
+
+const SpecialCell* BlockTopology::findSpecial(int cell) const {
+  const auto it = std::lower_bound(special.begin(), special.end(), cell,
+                                   [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+  return it != special.end() && it->cell == cell ? &*it : nullptr;
+}
+
+std::uint64_t BlockTopology::cellVertex(int x, int y, int z) const {
+  const std::uint64_t row = cells.word[x] >> 8 * y, below = (std::uint64_t{1} << z) - 1;
+  std::uint64_t n = firstVertex + cellsBefore[8 * x + y] + kBitCount[row & below];
+  if (!special.empty()) {
+    const int cell = 64 * x + 8 * y + z;
+    const auto it = std::lower_bound(special.begin(), special.end(), cell,
+                                     [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+    if (it != special.begin()) n += std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
+  }
+  return n;
+}
+
+std::uint64_t BlockTopology::vertexAt(int x, int y, int z, int edge) const {
+  const std::uint64_t first = cellVertex(x, y, z);
+  if (special.empty()) return first;
+  const SpecialCell* s = findSpecial(64 * x + 8 * y + z);
+  return s == nullptr ? first : first + static_cast<std::uint64_t>(s->vertex[edge]);
+}
+
+Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, FlipRule rule) {
+  const BlockIndex index(blocks.coords);
+  Topology t;
+  t.blocks.resize(blocks.coords.size());
+  BlockProgress progress(monitor, "count", blocks.coords.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) BlockCounter(blocks, index, rule, i, t.blocks[i]).run();
+    progress.advance(range.size());
+  });
+  for (BlockTopology& b : t.blocks) {
+    b.firstVertex = t.vertexCount;
+    b.firstQuad = t.quadCount;
+    t.vertexCount += b.vertexCount;
+    t.quadCount += b.quadCount;
+    t.openArcs += b.openArcs;
+    for (const SpecialCell& s : b.special) t.multiVertexCells += s.vertexCount > 1;
+  }
+  return t;
+}
+
+void checkVertexCount(std::uint64_t vertices) {
+  constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 32;
+  if (vertices > kMaxVertices)
+    throw Error(fmt::format("the mesh would have {} vertices, the limit is {}; use a coarser lattice", vertices, kMaxVertices));
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,99 @@
+#include "extract/vertex_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pdc/math/solvers.h"
+
+namespace pdc::detail {
+namespace {
+
+/// Vertices stay this far inside their cell's walls, in voxels, so that faces of neighbouring cells cannot touch there.
+constexpr double kCellMargin = 1e-4;
+
+/// How far a free vertex may lie from the centre of its cell along an axis. On exact distance grids creases run up to 1.5
+/// voxels outside the cells that see them; beyond that a minimiser comes from an ill-conditioned system, not from a feature.
+constexpr double kFreeHalfSize = 2.0;
+
+/// Eigenvalues of the classical quadric below this share of the largest count as zero (Lindstrom 2000).
+constexpr double kRankCutoff = 1e-3;
+
+double largest(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// KᵀAK.
+SymMat3<double> congruent(const SymMat3<double>& A, const Mat3d& K) {
+  const Vec3d c0 = K.column(0), c1 = K.column(1), c2 = K.column(2);
+  const Vec3d a0 = A * c0, a1 = A * c1, a2 = A * c2;
+  return {dot(c0, a0), dot(c0, a1), dot(c0, a2), dot(c1, a1), dot(c1, a2), dot(c2, a2)};
+}
+
+}  // namespace
+
+CellMetric::CellMetric(const Mat3d& jacobian, double unit)
+    : voxelSize(unit), M(jacobian * (1.0 / unit)), G(congruent(SymMat3<double>::identity(), M)) {
+  // A uniform scale's entries are one to rounding; making them so lets such lattices skip the metric altogether.
+  constexpr double kRounding = 1e-12;
+  const Mat3d I;
+  double off = 0;
+  for (int i = 0; i < 3; ++i) off = std::max(off, largest(M.row[i] - I.row[i]));
+  identity = off < kRounding;
+  if (identity) {
+    M = I;
+    G = SymMat3<double>::identity();
+  }
+}
+
+VertexSolver::VertexSolver(double sigmaNormal, Placement placement)
+    : mSigma(sigmaNormal), mHalfSize(placement == Placement::kFree ? kFreeHalfSize : 0.5 - kCellMargin) {}
+
+SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& metric) const {
+  const double n = samples.size;
+  Vec3d positions{};
+  Quadric<double> q = Quadric<double>::zero();
+  for (int i = 0; i < samples.size; ++i) {
+    positions += samples.position[i];
+    q += planeQuadric(samples.position[i], samples.row[i]);
+  }
+  const Vec3d massPoint = positions * (1 / n);
+  if (std::isinf(mSigma)) return {massPoint, metric.G * n, Vec3d{}};
+  if (mSigma == 0) return solveClassical(q, massPoint, metric);
+
+  // The sum of probabilisticPlaneQuadric(position, row, Σn), which is the same for all samples.
+  const SymMat3<double> Sigma_n = metric.G * (mSigma * mSigma);
+  q.A += Sigma_n * n;
+  q.b += Sigma_n * positions;
+
+  // About the mass point the right-hand side is small where the surface is flat, and so is what rounding does to it.
+  const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
+  if (!step) return solveClassical(q, massPoint, metric);  // σn² drowned in rounding.
+  SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
+  constrain(v, q.A, q.b);
+  v.halfGradient = q.halfGradient(v.x);
+  return v;
+}
+
+SolvedVertex VertexSolver::solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const {
+  const Vec3d r = q.b - q.A * massPoint;
+  SolvedVertex v{massPoint, q.A, Vec3d{}};
+  if (metric.identity) {
+    v.x += solvePseudoInverse(q.A, r, kRankCutoff);
+  } else {
+    // "Shortest" is meant in world space: solve for y = Mx.
+    const Mat3d K = inverse(metric.M);
+    v.x += K * solvePseudoInverse(congruent(q.A, K), K.transposed() * r, kRankCutoff);
+  }
+  // Over the cell the minimiser need not be unique; a ridge as strong as the cut-off picks the one near the mass point.
+  const SymMat3<double> ridge = metric.G * (kRankCutoff * q.A.trace());
+  constrain(v, q.A + ridge, q.b + ridge * massPoint);
+  v.halfGradient = q.halfGradient(v.x);
+  return v;
+}
+
+void VertexSolver::constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const {
+  const double reach = largest(v.x);
+  v.outOfCell = reach > 0.5;
+  v.moved = reach > mHalfSize;
+  if (v.moved) v.x = minimizeInCube(A, b, v.x, mHalfSize);
+}
+
+}  // namespace pdc::detail

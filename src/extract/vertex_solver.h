@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "pdc/extract/contour.h"
+#include "pdc/math/quadric.h"
+
+namespace pdc::detail {
+
+/// Lengths in world space seen from a cell: for a step d in lattice units, |M d| is its length in voxels.
+struct CellMetric {
+  /// \param jacobian of the lattice map; \param voxelSize the length that counts as one.
+  CellMetric(const Mat3d& jacobian, double voxelSize);
+
+  double voxelSize;
+  Mat3d M;
+  SymMat3<double> G;      ///< MᵀM.
+  bool identity = false;  ///< True for the common case of a uniform, unrotated lattice, where M = G = I.
+};
+
+/// Hermite data of one surface patch in lattice units about the centre of its cell.
+struct PatchSamples {
+  static constexpr int kMax = 12;
+  std::array<Vec3d, kMax> position;
+  /// The row Mᵀn of each plane: |row · (x − position)| is the distance to it in voxels, measured in world space. Zero where
+  /// there is no normal.
+  std::array<Vec3d, kMax> row;
+  int size = 0;
+};
+
+struct SolvedVertex {
+  Vec3d x;                ///< Lattice units from the centre of the cell.
+  SymMat3<double> A;      ///< Of the patch's quadric.
+  Vec3d halfGradient;     ///< Ax − b: zero where the vertex is the free minimiser.
+  bool outOfCell = false; ///< The free minimiser lay outside the cell.
+  bool moved = false;     ///< The vertex is not the free minimiser.
+};
+
+/// Places the vertex of a patch: minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world space, that
+/// is σn² G in lattice units.
+class VertexSolver {
+ public:
+  VertexSolver(double sigmaNormal, Placement placement);
+
+  [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
+
+ private:
+  [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
+  void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;
+
+  double mSigma;
+  double mHalfSize;
+};
+
+}  // namespace pdc::detail

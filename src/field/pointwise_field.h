@@ -1,0 +1,62 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <type_traits>
+
+#include "pdc/field/field.h"
+
+namespace pdc::detail {
+
+struct ValueGradient {
+  double value;
+  Vec3d gradient;
+};
+
+/// A field written for one point: plain numbers and four functions. gradient() gives the same value as value(), bit for
+/// bit.
+template <typename Shape>
+concept PointShape = std::is_trivially_copyable_v<Shape> &&
+    requires(const Shape& shape, const Vec3d& p, const Box& box) {
+  { shape.value(p) } -> std::same_as<double>;
+  { shape.gradient(p) } -> std::same_as<ValueGradient>;
+  { shape.bound(box) } -> std::same_as<Interval>;
+  { shape.lipschitz() } -> std::same_as<double>;
+};
+
+/// Turns a shape into a field: the batch loops.
+template <PointShape Shape>
+class PointwiseField final : public Field {
+ public:
+  explicit PointwiseField(const Shape& shape) : mShape(shape) {}
+
+  void values(PointSpan points, double* values) const override {
+    // A copy: what `values` points to might be mShape, as far as the compiler knows.
+    const Shape shape = mShape;
+    for (std::size_t i = 0; i < points.size; ++i) values[i] = shape.value({points.x[i], points.y[i], points.z[i]});
+  }
+
+  void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
+    const Shape shape = mShape;
+    for (std::size_t i = 0; i < points.size; ++i) {
+      const ValueGradient f = shape.gradient({points.x[i], points.y[i], points.z[i]});
+      values[i] = f.value;
+      gradients.x[i] = f.gradient.x;
+      gradients.y[i] = f.gradient.y;
+      gradients.z[i] = f.gradient.z;
+    }
+  }
+
+  [[nodiscard]] Interval bound(const Box& box) const override { return mShape.bound(box); }
+  [[nodiscard]] double lipschitz() const override { return mShape.lipschitz(); }
+
+ private:
+  Shape mShape;
+};
+
+template <PointShape Shape>
+FieldPtr makePointwise(const Shape& shape) {
+  return std::make_shared<PointwiseField<Shape>>(shape);
+}
+
+}  // namespace pdc::detail

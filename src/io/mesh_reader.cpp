@@ -1,0 +1,45 @@
+#include "pdc/io/mesh_reader.h"
+
+#include <new>
+#include <string_view>
+
+#include "io/file_error.h"
+#include "io/mesh_format.h"
+#include "io/obj_reader.h"
+#include "io/off_reader.h"
+#include "io/ply_reader.h"
+#include "io/read_file.h"
+#include "io/stl_reader.h"
+
+namespace pdc {
+namespace {
+
+Mesh parse(detail::MeshFormat format, std::string_view bytes) {
+  switch (format) {
+    case detail::MeshFormat::kPly:
+      return detail::readPly(bytes);
+    case detail::MeshFormat::kObj:
+      return detail::readObj(bytes);
+    case detail::MeshFormat::kStl:
+      return detail::readStl(bytes);
+    case detail::MeshFormat::kOff:
+      break;
+  }
+  return detail::readOff(bytes);
+}
+
+}  // namespace
+
+Mesh readMesh(const std::filesystem::path& path) {
+  const detail::MeshFormat format = detail::meshFormat(path);
+  try {
+    const Buffer<char> bytes = detail::readFile(path);
+    return parse(format, {bytes.data(), bytes.size()});
+  } catch (const Error& error) {
+    throw detail::fileError(path, error.what());
+  } catch (const std::bad_alloc&) {
+    throw detail::fileError(path, "does not fit into memory");
+  }
+}
+
+}  // namespace pdc

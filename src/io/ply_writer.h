@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+
+#include "pdc/mesh/mesh.h"
+
+namespace pdc::detail {
+
+class AtomicFile;
+
+/// "int" if it holds every index of a mesh with that many vertices, else "uint".
+[[nodiscard]] const char* plyIndexType(std::size_t vertices);
+
+/// Binary little-endian or text; quads come before triangles. \throws Error
+void writePly(const Mesh& mesh, AtomicFile& file, bool ascii);
+
+}  // namespace pdc::detail

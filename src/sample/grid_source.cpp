@@ -1,0 +1,97 @@
+#include "pdc/sample/grid_source.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sample/grid_sampler.h"
+
+namespace pdc {
+namespace {
+
+/// Isovalue of fog volumes and other densities where none is asked for, as in Houdini's converter.
+constexpr double kDensityIso = 0.5;
+
+double background(const openvdb::GridBase& grid) {
+  double value = 0;
+  const auto read = [&](const auto& typed) { value = static_cast<double>(typed.background()); };
+  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
+                               openvdb::BoolGrid>>(read);
+  return value;
+}
+
+LatticeMap makeMap(const openvdb::math::Transform& transform) {
+  if (transform.isLinear()) {
+    // OpenVDB multiplies row vectors from the left.
+    const openvdb::Mat4d m = transform.baseMap()->getAffineMap()->getMat4();
+    Mat3d linear;
+    for (int i = 0; i < 3; ++i) linear.row[i] = {m(0, i), m(1, i), m(2, i)};
+    return LatticeMap(linear, {m(3, 0), m(3, 1), m(3, 2)});
+  }
+  const auto toVdb = [](const Vec3d& v) { return openvdb::Vec3d(v.x, v.y, v.z); };
+  const auto map = transform.baseMap();
+  const auto position = [map, toVdb](const Vec3d& x) {
+    const openvdb::Vec3d p = map->applyMap(toVdb(x));
+    return Vec3d{p.x(), p.y(), p.z()};
+  };
+  const auto jacobian = [map, toVdb](const Vec3d& x) {
+    Mat3d columns;
+    for (int i = 0; i < 3; ++i) {
+      openvdb::Vec3d axis(0);
+      axis[i] = 1;
+      const openvdb::Vec3d c = map->applyJacobian(axis, toVdb(x));
+      columns.row[i] = {c.x(), c.y(), c.z()};
+    }
+    return columns.transposed();
+  };
+  return LatticeMap(position, jacobian, {});
+}
+
+}  // namespace
+
+struct GridSource::Impl {
+  detail::GridReading reading;
+  LatticeMap map;
+  std::unique_ptr<const detail::GridSampler> sampler;
+};
+
+GridSource::GridSource(openvdb::GridBase::ConstPtr grid, const GridSourceOptions& options) {
+  if (!grid) throw std::invalid_argument("GridSource: the grid is null");
+  if (options.iso && !std::isfinite(*options.iso)) throw Error("the isovalue must be finite");
+  const openvdb::GridClass gridClass = grid->getGridClass();
+  const double outside = background(*grid);
+
+  // An unclassified grid about a positive background is a level set by another name; a mask is true inside.
+  const bool classified = gridClass == openvdb::GRID_LEVEL_SET || gridClass == openvdb::GRID_FOG_VOLUME;
+  const bool mask = grid->isType<openvdb::BoolGrid>();
+  const bool distance = !mask && (classified ? gridClass == openvdb::GRID_LEVEL_SET : outside > 0);
+  detail::GridReading reading;
+  reading.iso = options.iso.value_or(distance ? 0.0 : kDensityIso);
+  reading.insideIsHigher =
+      classified || mask ? !distance : outside < reading.iso || (outside == reading.iso && !distance);
+  reading.open = options.open;
+  reading.acceptNonFinite = options.acceptNonFinite;
+  reading.clamp = distance ? std::abs(outside) : std::numeric_limits<double>::infinity();
+
+  auto sampler = detail::makeGridSampler(grid, reading);
+  if (!sampler)
+    throw Error("grid of type " + grid->valueType() + " cannot be contoured; float, double, int32, int64 and bool can");
+  mImpl.reset(new Impl{reading, makeMap(grid->transform()), std::move(sampler)});
+}
+
+GridSource::~GridSource() = default;
+
+SurfaceBlocks GridSource::surfaceBlocks(const Monitor& monitor) const { return mImpl->sampler->surfaceBlocks(monitor); }
+
+void GridSource::fillHermite(const Coord& block, const BlockSigns&, const EdgeIndex& edges,
+                             HermiteBlock& hermite) const {
+  mImpl->sampler->fillHermite(block, edges, mImpl->map, hermite);
+}
+
+const LatticeMap& GridSource::map() const { return mImpl->map; }
+double GridSource::iso() const { return mImpl->reading.iso; }
+bool GridSource::insideIsHigher() const { return mImpl->reading.insideIsHigher; }
+
+}  // namespace pdc

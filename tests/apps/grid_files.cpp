@@ -1,0 +1,46 @@
+#include "apps/grid_files.h"
+
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <cmath>
+#include <limits>
+
+namespace pdc::test {
+namespace {
+
+void spoil(openvdb::FloatGrid& grid, int nanVoxels, int infiniteVoxels) {
+  for (auto voxel = grid.beginValueOn(); voxel && nanVoxels + infiniteVoxels > 0; ++voxel) {
+    if (std::abs(*voxel) > grid.voxelSize()[0]) continue;
+    const bool nan = nanVoxels > 0;
+    voxel.setValue(nan ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity());
+    --(nan ? nanVoxels : infiniteVoxels);
+  }
+}
+
+}  // namespace
+
+void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
+  openvdb::initialize();
+  openvdb::GridPtrVec grids;
+  if (content.vectorGrid) {
+    grids.push_back(openvdb::Vec3SGrid::create());
+    grids.back()->setName("velocity");
+  } else {
+    auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    sphere->setName("sphere");
+    sphere->transform().postTranslate({content.offset, 0, 0});
+    spoil(*sphere, content.nanVoxels, content.infiniteVoxels);
+    grids.push_back(sphere);
+    if (content.twoGrids) {
+      grids.push_back(sphere->deepCopyGrid());
+      grids.back()->setName("other");
+    }
+  }
+  openvdb::io::File file(path.string());
+  file.write(grids);
+  file.close();
+}
+
+}  // namespace pdc::test

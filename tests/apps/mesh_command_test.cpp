@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/grid_files.h"
+#include "apps/program.h"
+#include "pdc/io/mesh_reader.h"
+#include "pdc/mesh/mesh_report.h"
+
+namespace pdc::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string demoScene() { return std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml"; }
+
+class MeshCommand : public ::testing::Test {
+ protected:
+  /// Contours into out.ply, expects success, and returns the report.
+  Json contour(Arguments arguments) {
+    arguments.insert(arguments.begin(), "mesh");
+    arguments.insert(arguments.begin() + 2, {mOutput, "--json", mReport});
+    mOutcome = runPdc(arguments);
+    EXPECT_EQ(mOutcome.exitCode, 0) << mOutcome.err;
+    return Json::parse(readFile(mReport));
+  }
+
+  TemporaryFolder mFolder;
+  std::string mOutput = mFolder / "out.ply";
+  std::string mReport = mFolder / "report.json";
+  Outcome mOutcome;
+};
+
+TEST_F(MeshCommand, GridBecomesAClosedMesh) {
+  const Json report = contour({bulletGrid()});
+  const MeshReport mesh = analyze(readMesh(mOutput));
+  EXPECT_EQ(mesh.eulerNumber, 2);
+  EXPECT_EQ(mesh.boundaryEdges, 0U);
+  EXPECT_EQ(mesh.nonManifoldEdges, 0U);
+  EXPECT_GT(mesh.volume, 0);
+  EXPECT_EQ(mesh.vertices, report["vertices"]);
+  EXPECT_EQ(mesh.quads, report["quads"]);
+  EXPECT_EQ(mOutcome.err, "");
+  EXPECT_NE(mOutcome.out.find("closed"), std::string::npos) << mOutcome.out;
+}
+
+TEST_F(MeshCommand, SphereHasItsAreaAndVolume) {
+  writeSphere(mFolder / "sphere.vdb");
+  contour({mFolder / "sphere.vdb"});
+  const MeshReport mesh = analyze(readMesh(mOutput));
+  EXPECT_NEAR(mesh.volume, 4.0 / 3.0 * M_PI, 0.01 * 4.0 / 3.0 * M_PI);
+  EXPECT_NEAR(mesh.area, 4.0 * M_PI, 0.01 * 4.0 * M_PI);
+}
+
+TEST_F(MeshCommand, SceneIsContouredAtTheResolutionAskedFor) {
+  const Json coarse = contour({demoScene(), "--resolution", "20"});
+  const Json fine = contour({demoScene(), "--resolution", "40"});
+  const double ratio = fine["vertices"].get<double>() / coarse["vertices"].get<double>();
+  EXPECT_GT(ratio, 3);
+  EXPECT_LT(ratio, 5);
+}
+
+TEST_F(MeshCommand, ReportHasAllKeys) {
+  const Json report = contour({bulletGrid(), "--sigma-n", "inf", "--threads", "2", "--triangles"});
+  for (const char* key : {"input", "output", "vertices", "quads", "triangles", "boundary_edges", "clamped_vertices",
+                          "out_of_cell_vertices", "multi_vertex_cells", "sigma_n", "iso", "placement", "threads",
+                          "peak_memory_bytes", "bytes_written", "warnings"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["input"], bulletGrid().string());
+  EXPECT_EQ(report["output"], mOutput);
+  EXPECT_EQ(report["sigma_n"], "inf");
+  EXPECT_EQ(report["iso"], 0.0);
+  EXPECT_EQ(report["threads"], 2);
+  EXPECT_EQ(report["placement"], "cell");
+  EXPECT_EQ(report["quads"], 0);
+  EXPECT_GT(report["triangles"], 0);
+  EXPECT_EQ(report["bytes_written"], std::filesystem::file_size(mOutput));
+  EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
+  EXPECT_TRUE(report["warnings"].empty());
+  const Json& seconds = report["seconds"];
+  const double parts =
+      seconds["read"].get<double>() + seconds["contour"].get<double>() + seconds["write"].get<double>();
+  EXPECT_GE(seconds["total"].get<double>(), 0.999 * parts);
+}
+
+TEST_F(MeshCommand, SigmaAndPlacementReachTheContouring) {
+  contour({bulletGrid()});
+  const std::string standard = readFile(mOutput);
+  contour({bulletGrid(), "--sigma-n", "0.05", "--placement", "cell"});
+  EXPECT_TRUE(readFile(mOutput) == standard);
+  contour({bulletGrid(), "--sigma-n", "0.5"});
+  EXPECT_FALSE(readFile(mOutput) == standard);
+  EXPECT_EQ(contour({bulletGrid(), "--placement", "free"})["placement"], "free");
+}
+
+TEST_F(MeshCommand, SameBytesForAnyNumberOfThreads) {
+  writeSphere(mFolder / "sphere.vdb");
+  for (const std::string& input : {bulletGrid().string(), (mFolder / "sphere.vdb").string(), demoScene()}) {
+    contour({input, "--threads", "1"});
+    const std::string expected = readFile(mOutput);
+    for (const char* threads : {"2", "3", "8"}) {
+      contour({input, "--threads", threads});
+      EXPECT_TRUE(readFile(mOutput) == expected) << input << " with " << threads << " threads";
+    }
+  }
+}
+
+TEST_F(MeshCommand, IsoOutsideOfTheValuesWarnsAndGivesAnEmptyMesh) {
+  const Json report = contour({bulletGrid(), "--iso", "7"});
+  EXPECT_EQ(report["vertices"], 0);
+  ASSERT_EQ(report["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("warning: iso 7 is outside"), std::string::npos) << mOutcome.err;
+  EXPECT_NE(mOutcome.err.find("the mesh is empty"), std::string::npos) << mOutcome.err;
+  EXPECT_EQ(std::count(mOutcome.err.begin(), mOutcome.err.end(), '\n'), 1);
+  EXPECT_TRUE(std::filesystem::exists(mOutput));
+}
+
+TEST_F(MeshCommand, NonFiniteVoxelsCountAsOutsideOnRequest) {
+  writeSphere(mFolder / "nan.vdb", {.nanVoxels = 3, .infiniteVoxels = 2});
+  contour({mFolder / "nan.vdb", "--nan", "outside"});
+  const MeshReport mesh = analyze(readMesh(mOutput));
+  EXPECT_EQ(mesh.nonFiniteVertices, 0U);
+  EXPECT_EQ(mesh.boundaryEdges, 0U);
+  EXPECT_NEAR(mesh.volume, 4.0 / 3.0 * M_PI, 0.03 * 4.0 / 3.0 * M_PI);
+}
+
+TEST_F(MeshCommand, TakesTheNamedGrid) {
+  writeSphere(mFolder / "two.vdb", {.twoGrids = true});
+  EXPECT_GT(contour({mFolder / "two.vdb", "--grid", "other"})["vertices"], 0);
+}
+
+TEST_F(MeshCommand, WarnsWhereSinglePrecisionIsTooCoarse) {
+  writeSphere(mFolder / "near.vdb", {.offset = 100});
+  EXPECT_TRUE(contour({mFolder / "near.vdb"})["warnings"].empty());
+  writeSphere(mFolder / "far.vdb", {.offset = 10000});
+  EXPECT_EQ(contour({mFolder / "far.vdb"})["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("single precision"), std::string::npos) << mOutcome.err;
+}
+
+TEST_F(MeshCommand, QuietSaysNothing) {
+  contour({bulletGrid(), "--quiet"});
+  EXPECT_EQ(mOutcome.out, "");
+  EXPECT_EQ(mOutcome.err, "");
+}
+
+TEST_F(MeshCommand, JsonOnStandardOutputStandsAlone) {
+  const Outcome outcome = runPdc({"mesh", bulletGrid(), mOutput, "--json", "-"});
+  EXPECT_EQ(Json::parse(outcome.out)["output"], mOutput);
+}
+
+TEST_F(MeshCommand, WritesEveryFormat) {
+  contour({bulletGrid()});
+  const MeshReport expected = analyze(readMesh(mOutput));
+  for (const char* name : {"out.obj", "out.off", "out.stl", "ascii.ply"}) {
+    SCOPED_TRACE(name);
+    const std::string output = mFolder / name;
+    const Arguments arguments = {"mesh", bulletGrid(), output, "--ascii"};
+    ASSERT_EQ(runPdc(arguments).exitCode, 0);
+    const MeshReport mesh = analyze(readMesh(output));
+    EXPECT_EQ(mesh.vertices, expected.vertices);
+    EXPECT_NEAR(mesh.volume, expected.volume, 1e-4 * expected.volume);
+  }
+}
+
+TEST_F(MeshCommand, NormalsAreWritten) {
+  contour({bulletGrid(), "--normals", "--ascii"});
+  EXPECT_NE(readFile(mOutput).find("property float nx"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pdc::test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pdc::test {
+
+/// A folder that exists as long as this object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return mPath / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return mPath; }
+  /// Makes a file and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& content) const;
+  /// Names of all entries, hidden ones too, sorted.
+  [[nodiscard]] std::vector<std::string> entries() const;
+
+ private:
+  std::filesystem::path mPath;
+};
+
+struct Outcome {
+  int exitCode = -1;  ///< -1 if the program did not exit by itself.
+  std::string out, err;
+  double secondsAfterSignal = 0;
+};
+
+using Arguments = std::vector<std::string>;
+
+struct RunOptions {
+  double interruptAfter = 0;        ///< Seconds after which it gets SIGINT; 0 for never.
+  std::string standardOutput = {};  ///< A file or device in place of the captured output.
+};
+
+/// Runs the built pdc with these arguments and waits for it.
+[[nodiscard]] Outcome runPdc(const Arguments& arguments, const RunOptions& options = {});
+
+[[nodiscard]] std::string readFile(const std::filesystem::path& path);
+
+/// The small grid that comes with the project: a level set, 85 x 35 x 35 voxels.
+[[nodiscard]] std::filesystem::path bulletGrid();
+
+}  // namespace pdc::test

@@ -1,0 +1,132 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "extract/block_faces.h"
+#include "extract/block_topology.h"
+#include "extract/block_vertices.h"
+#include "extract/sign_source.h"
+#include "pdc/extract/contour.h"
+#include "pdc/mesh/mesh_report.h"
+
+namespace pdc {
+namespace {
+
+/// Small grids are packed into one volume, this far apart: not a multiple of the block size, so that they lie across block
+/// borders in every way.
+constexpr int kPitch = 9;
+constexpr int kPerAxis = 12;
+
+/// Calls fill(source, index, x, y, z) with the low corner of each of kPerAxis³ places.
+template <typename Fill>
+SignSource pack(bool open, Fill&& fill) {
+  SignSource source(kPitch * kPerAxis, open);
+  int i = 0;
+  for (int x = 0; x < kPerAxis; ++x)
+    for (int y = 0; y < kPerAxis; ++y)
+      for (int z = 0; z < kPerAxis; ++z) fill(source, i++, kPitch * x + 1, kPitch * y + 1, kPitch * z + 1);
+  return source;
+}
+
+void expectSound(const MeshReport& r) {
+  EXPECT_EQ(r.nonManifoldEdges, 0u);
+  EXPECT_EQ(r.nonManifoldVertices, 0u);
+  EXPECT_EQ(r.misorientedEdges, 0u);
+  EXPECT_EQ(r.degenerateFaces, 0u);
+  EXPECT_EQ(r.duplicateFaces, 0u);
+  EXPECT_EQ(r.unusedVertices, 0u);
+}
+
+void expectClosed(const MeshReport& r) {
+  expectSound(r);
+  EXPECT_EQ(r.boundaryEdges, 0u);
+  EXPECT_EQ(r.eulerNumber % 2, 0);
+  EXPECT_GT(r.volume, 0);
+}
+
+/// What contour() does, without the rule that flips pairs of cells.
+Mesh contourWithoutRule(const SignSource& source) {
+  const SurfaceBlocks blocks = source.surfaceBlocks({});
+  const detail::Topology topology = detail::buildTopology(blocks, {}, detail::FlipRule::kNever);
+  Mesh mesh;
+  mesh.positions.resize(topology.vertexCount);
+  mesh.quads.resize(topology.quadCount);
+  Buffer<detail::VertexError> errors(topology.vertexCount);
+  detail::solveVertices(source, blocks, topology, detail::VertexSolver(0.1, Placement::kCell),
+                        {mesh.positions.data(), nullptr, errors.data()}, {});
+  detail::writeFaces(blocks, topology, errors.data(), false, mesh.quads.data(), nullptr, {});
+  return mesh;
+}
+
+/// Packs 6×6×6 grids of random signs.
+SignSource randomGrids(std::mt19937& engine, double density, bool open = false) {
+  std::bernoulli_distribution inside(density);
+  return pack(open, [&](SignSource& source, int, int x, int y, int z) {
+    for (int i = 0; i < 6 * 6 * 6; ++i) source.set(x + i / 36, y + i / 6 % 6, z + i % 6, inside(engine));
+  });
+}
+
+// Every sign pattern of the 3×3×2 points about a lattice edge, as a closed solid of its own.
+TEST(Manifold, AllNeighbourhoodsOfAnEdge) {
+  constexpr unsigned kPatterns = 1u << 18;
+  constexpr unsigned kPerVolume = kPerAxis * kPerAxis * kPerAxis;
+  for (unsigned first = 0; first < kPatterns; first += kPerVolume) {
+    const SignSource source = pack(false, [&](SignSource& s, int i, int x, int y, int z) {
+      const unsigned bits = first + static_cast<unsigned>(i);
+      for (int k = 0; k < 18 && bits < kPatterns; ++k) s.set(x + k % 3, y + k / 3 % 3, z + k / 9, (bits >> k & 1) != 0);
+    });
+    expectClosed(analyze(contour(source, {.sigmaNormal = 0.1})));
+    if (HasFailure()) FAIL() << "patterns from " << first;
+  }
+}
+
+TEST(Manifold, RandomGrids) {
+  std::mt19937 engine(1);
+  constexpr int kGrids = 100'000, kPerVolume = kPerAxis * kPerAxis * kPerAxis;
+  for (int done = 0; done < kGrids; done += kPerVolume) {
+    const double density = std::array{0.3, 0.5, 0.7}[done / kPerVolume % 3];
+    ContourReport report;
+    const MeshReport mesh = analyze(contour(randomGrids(engine, density), {.sigmaNormal = 0.1}, &report));
+    expectClosed(mesh);
+    EXPECT_EQ(report.boundaryEdges, 0u);
+    EXPECT_GT(report.multiVertexCells, 0u);
+    if (HasFailure()) FAIL() << "grids from " << done;
+  }
+}
+
+TEST(Manifold, TheTestBitesWithoutTheRule) {
+  std::mt19937 engine(1);
+  EXPECT_GT(analyze(contourWithoutRule(randomGrids(engine, 0.5))).nonManifoldEdges, 0u);
+}
+
+// Open surfaces: only what lies wholly in the volume is meshed, so the random grids fill it to its border.
+TEST(Manifold, OpenBordersAreManifoldToo) {
+  std::mt19937 engine(2);
+  for (const double density : {0.3, 0.5, 0.7}) {
+    constexpr int kSize = 40;
+    SignSource source(kSize, true);
+    std::bernoulli_distribution inside(density);
+    for (int i = 0; i < kSize * kSize * kSize; ++i) source.set(i / (kSize * kSize), i / kSize % kSize, i % kSize, inside(engine));
+    ContourReport report;
+    const MeshReport mesh = analyze(contour(source, {.sigmaNormal = 0.1}, &report));
+    expectSound(mesh);
+    EXPECT_GT(mesh.boundaryEdges, 0u);
+    EXPECT_EQ(mesh.boundaryEdges, report.boundaryEdges);
+  }
+}
+
+TEST(Manifold, TrianglesAreTheQuadsSplit) {
+  std::mt19937 engine(3);
+  const SignSource source = randomGrids(engine, 0.5);
+  const Mesh quads = contour(source), triangles = contour(source, {.triangles = true});
+  ASSERT_EQ(triangles.triangles.size(), 2 * quads.quads.size());
+  expectClosed(analyze(triangles));
+  for (std::size_t i = 0; i < quads.quads.size(); ++i) {
+    const Quad& q = quads.quads[i];
+    ASSERT_EQ(triangles.triangles[2 * i], (Triangle{q[0], q[1], q[2]}));
+    ASSERT_EQ(triangles.triangles[2 * i + 1], (Triangle{q[0], q[2], q[3]}));
+  }
+}
+
+}  // namespace
+}  // namespace pdc
