@@ -13,8 +13,8 @@ ValueGradient simplexOctave(const Vec3d& p, std::uint32_t seed);
 /// The seed of octave `octave`.
 std::uint32_t octaveSeed(std::uint32_t seed, int octave);
 
-/// Largest length of an octave's gradient and largest norm of its second derivative. The maxima over the simplex and all
-/// choices of corner gradients, found by search from 3·10⁵ and 3·10⁴ samples, are 6.9654 and 48.241.
+/// Largest length of an octave's gradient and largest norm of its second derivative. The maxima over the simplex and
+/// all choices of corner gradients, found by search from 3·10⁵ and 3·10⁴ samples, are 6.9654 and 48.241.
 inline constexpr double kSimplexSlope = 7.0;
 inline constexpr double kSimplexCurvature = 49.0;
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/scene_shapes.h"

@@ -47,8 +47,6 @@ std::string readMap(ByteReader& bytes) {
 
 }  // namespace
 
-std::string VdbEntry::baseName() const { return uniqueName.substr(0, uniqueName.find(kNameSeparator)); }
-
 std::string VdbEntry::shownName() const {
   const std::size_t separator = uniqueName.find(kNameSeparator);
   if (separator == std::string::npos) return uniqueName;
@@ -96,10 +94,11 @@ void VdbFile::readEntries() {
     entry.half = entry.type.ends_with(kHalfSuffix);
     if (entry.half) entry.type.resize(entry.type.size() - kHalfSuffix.size());
     entry.parent = mBytes.string();
-    const auto begin = mBytes.get<std::uint64_t>(), tree = mBytes.get<std::uint64_t>(),
-               end = mBytes.get<std::uint64_t>();
+    const auto begin = mBytes.get<std::uint64_t>();
+    mBytes.skip(sizeof(std::uint64_t));  // where the buffers start; nobody asks for it
+    const auto end = mBytes.get<std::uint64_t>();
     if (mHasOffsets) {
-      if (begin < mBytes.position() || begin > tree || tree > end || end > mBytes.size())
+      if (begin < mBytes.position() || begin > end || end > mBytes.size())
         throw Error(fmt::format("grid \"{}\" should be at bytes {} to {}, but the file has {}", entry.shownName(),
                                 begin, end, mBytes.size()));
       entry.begin = begin;

@@ -19,8 +19,6 @@ struct VdbEntry {
 
   /// "name" or "name[1]"; "[0]" for a grid without a name.
   [[nodiscard]] std::string shownName() const;
-  /// The part before the suffix.
-  [[nodiscard]] std::string baseName() const;
 };
 
 struct VdbMetadata {

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "sample/block_signs.h"
 

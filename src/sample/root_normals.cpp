@@ -1,6 +1,7 @@
 #include "sample/root_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

@@ -3,18 +3,15 @@
 set -euo pipefail
 cd "$1"
 
-failures=0
-complain() {
-  echo "$1"
-  failures=$((failures + 1))
-}
-
-while IFS= read -r file; do
-  name=$(basename "$file")
-  [[ "$name" =~ ^[a-z0-9]+(_[a-z0-9]+)*\.(h|cpp)$ ]] || complain "$file: not lower_snake"
-  [[ "$name" == *.h && "$(grep -c '^#pragma once$' "$file")" != 1 ]] && complain "$file: no #pragma once"
-  if [[ "$name" == *.cpp ]]; then
-    grep -qrF "$name" --include=CMakeLists.txt "${file%%/*}" || complain "$file: in no CMakeLists.txt, so never built"
-  fi
-done < <(find include src apps tests -name '*.h' -o -name '*.cpp')
-exit "$((failures > 0))"
+complaints=$(
+  find include src apps tests \( -name '*.h' -o -name '*.cpp' \) |
+    grep -vE '/[a-z0-9]+(_[a-z0-9]+)*\.(h|cpp)$' | sed 's/$/: not lower_snake/'
+  grep -rLx --include='*.h' '#pragma once' include src apps tests | sed 's/$/: no #pragma once/'
+  for folder in src apps tests; do
+    built=$(find "$folder" -name CMakeLists.txt -exec cat {} +)
+    while IFS= read -r source; do
+      [[ "$built" == *[/\ ]"${source##*/}"* ]] || echo "$source: in no CMakeLists.txt, so never built"
+    done < <(find "$folder" -name '*.cpp')
+  done
+) || true
+[[ -z "$complaints" ]] || { echo "$complaints"; exit 1; }

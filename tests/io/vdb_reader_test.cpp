@@ -174,7 +174,7 @@ TEST_F(VdbReader, GridsThatShareANameAreNumbered) {
   EXPECT_EQ(infos[2].name, "[0]");
   for (const VdbGridInfo& info : infos)
     EXPECT_EQ(openvdb::gridPtrCast<openvdb::Int32Grid>(readVdbGrid(path, info.name))->background(), info.background);
-  EXPECT_EQ(openvdb::gridPtrCast<openvdb::Int32Grid>(readVdbGrid(path, "density"))->background(), 1);
+  EXPECT_NE(errorOfReading(path, "density").find("\"density[1]\""), std::string::npos) << "which one?";
   expectSameTree(readVdbGrid(write({unnamed})), *unnamed);
 }
 

@@ -25,9 +25,9 @@ struct GradientSpan {
 
 /// A scalar function of space; negative inside. Immutable and safe to evaluate from many threads at once.
 ///
-/// Work is done in batches, so that the cost of a virtual call is shared and the loops inside vectorise. The result for a
-/// point must not depend on the other points of its batch: neighbouring blocks evaluate shared lattice points separately
-/// and must agree.
+/// Work is done in batches, so that the cost of a virtual call is shared and the loops inside vectorise. The result for
+/// a point must not depend on the other points of its batch: neighbouring blocks evaluate shared lattice points
+/// separately and must agree.
 class Field {
  public:
   /// Largest batch; implementations keep their temporaries in arrays of this length on the stack.
@@ -46,8 +46,8 @@ class Field {
   /// the sampler its pruning there, never correctness.
   [[nodiscard]] virtual Interval bound(const Box& box) const = 0;
 
-  /// A constant L with |f(p) - f(q)| <= L |p - q| everywhere, infinity if none is known. It keeps bounds tight where boxes
-  /// are turned.
+  /// A constant L with |f(p) - f(q)| <= L |p - q| everywhere, infinity if none is known. It keeps bounds tight where
+  /// boxes are turned.
   [[nodiscard]] virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
 
   /// One point; for tests and occasional use.

@@ -15,8 +15,8 @@ FieldPtr intersect(std::vector<FieldPtr> operands);
 /// The first operand without all the others.
 FieldPtr subtract(std::vector<FieldPtr> operands);
 
-/// Boolean operations with a fillet about `radius` wide (world units, > 0): polynomial smooth minimum (quadratic), applied
-/// from the first operand to the last.
+/// Boolean operations with a fillet about `radius` wide (world units, > 0): polynomial smooth minimum (quadratic),
+/// applied from the first operand to the last.
 FieldPtr smoothUnite(std::vector<FieldPtr> operands, double radius);
 FieldPtr smoothIntersect(std::vector<FieldPtr> operands, double radius);
 FieldPtr smoothSubtract(std::vector<FieldPtr> operands, double radius);
@@ -40,8 +40,9 @@ FieldPtr scale(FieldPtr field, double factor);
 FieldPtr scale(FieldPtr field, const Vec3d& factors);
 /// Reflects the half x >= 0 (or y, z: `axis` 0, 1, 2) onto the other half: f(|x|, y, z).
 FieldPtr mirror(FieldPtr field, int axis);
-/// Copies with the given period along each axis, 0 for none, the cell about the origin taken as the original. `count` limits
-/// the copies on each side of the original (0 = without limit). The zero set is right if the original fits into its cell.
+/// Copies with the given period along each axis, 0 for none, the cell about the origin taken as the original. `count`
+/// limits the copies on each side of the original (0 = without limit). The zero set is right if the original fits into
+/// its cell.
 FieldPtr repeat(FieldPtr field, const Vec3d& period, const std::array<int, 3>& count);
 
 }  // namespace pdc

@@ -2,9 +2,9 @@
 
 #include "pdc/field/field.h"
 
-/// Implicit shapes: negative inside, exact gradients, in world units. Unless said otherwise the value is the exact signed
-/// distance, and bound() uses that it changes by at most one per unit length. Sizes must be positive and finite; anything
-/// else throws std::invalid_argument.
+/// Implicit shapes: negative inside, exact gradients, in world units. Unless said otherwise the value is the exact
+/// signed distance, and bound() uses that it changes by at most one per unit length. Sizes must be positive and finite;
+/// anything else throws std::invalid_argument.
 namespace pdc {
 
 FieldPtr sphere(const Vec3d& center, double radius);
@@ -24,7 +24,8 @@ FieldPtr cylinder(const Vec3d& from, const Vec3d& to, double radius);
 /// Cone frustum with flat ends; one of the radii may be zero.
 FieldPtr cappedCone(const Vec3d& from, const Vec3d& to, double radiusFrom, double radiusTo);
 
-/// Torus about `axis` (normalised): `radius` from the centre to the tube's axis, `tube` the tube's radius.
+/// Torus about `axis` (normalised): `radius` from the centre to the tube's axis, `tube` the tube's radius. With tube >
+/// radius it closes about the centre, and values inside are no more than the distance.
 FieldPtr torus(const Vec3d& center, const Vec3d& axis, double radius, double tube);
 
 /// All points within `radius` of the segment.
@@ -34,8 +35,9 @@ FieldPtr capsule(const Vec3d& from, const Vec3d& to, double radius);
 /// zero set and normals, not a distance away from it.
 FieldPtr ellipsoid(const Vec3d& center, const Vec3d& semiAxes);
 
-/// Gyroid sheet solid: |sin x cos y + sin y cos z + sin z cos x| < thickness with x scaled by 2π/period. thickness 0 takes
-/// the solid on the negative side of the gyroid. The value is not a distance; it is scaled to have about unit slope.
+/// Gyroid sheet solid: |sin x cos y + sin y cos z + sin z cos x| < thickness with x scaled by 2π/period. thickness 0
+/// takes the solid on the negative side of the gyroid. The value is not a distance; it is scaled to have about unit
+/// slope.
 FieldPtr gyroid(double period, double thickness);
 
 }  // namespace pdc

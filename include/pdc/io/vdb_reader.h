@@ -12,7 +12,7 @@ namespace pdc {
 
 /// What a .vdb file says about one of its grids, and what its values are.
 struct VdbGridInfo {
-  std::string name;
+  std::string name;        ///< As readVdbGrid takes it: "name[1]" where grids share a name, "[0]" without one.
   std::string valueType;   ///< "float", "double", "int32", "int64", "bool", "vec3s", ...
   std::string gridClass;   ///< "level set", "fog volume", "unknown", "staggered".
   std::string transform;   ///< "uniform scale", "affine", "frustum", ...

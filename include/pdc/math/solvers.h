@@ -1,32 +1,44 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
+#include "pdc/math/interval.h"
 #include "pdc/math/mat3.h"
+#include "pdc/math/quadric.h"
 #include "pdc/math/sym_mat3.h"
 
-/// Solvers for symmetric 3×3 systems and for minimising quadrics f(x) = xᵀAx − 2bᵀx.
+/// Solvers for symmetric 3×3 systems and for minimising quadrics f(x) = xᵀAx − 2bᵀx. None allocates.
 namespace pdc {
 
-/// Solves Ax = b by an unrolled LDLᵀ factorisation without pivoting.
-/// \returns nothing if A is not positive definite to working precision.
+namespace detail {
+
+/// \returns whether A is positive definite to working precision: a pivot at or below the rounding of its diagonal entry
+/// counts as zero. \param[out] x the solution if so, anything if not. Free of branches, for the sake of batches.
+template <typename T>
+constexpr bool ldlt(const SymMat3<T>& A, const Vec3<T>& b, Vec3<T>& x) {
+  constexpr T kEpsilon = std::numeric_limits<T>::epsilon(), kTiny = std::numeric_limits<T>::min();
+  const T r0 = 1 / A.xx, l10 = A.xy * r0, l20 = A.xz * r0;
+  const T d1 = A.yy - l10 * A.xy, e = A.yz - l20 * A.xy, r1 = 1 / d1, l21 = e * r1;
+  const T d2 = A.zz - l20 * A.xz - l21 * e;
+  const T y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
+  x.z = y2 / d2;
+  x.y = y1 * r1 - l21 * x.z;
+  x.x = b.x * r0 - l10 * x.y - l20 * x.z;
+  return (A.xx > kTiny) & (d1 > kEpsilon * A.yy + kTiny) & (d2 > kEpsilon * A.zz + kTiny);
+}
+
+}  // namespace detail
+
+/// Solves Ax = b by an unrolled LDLᵀ factorisation without pivoting. Uses no fused multiply-add, which only hardware does fast
+/// and which the accuracy does not need.
+/// \returns nothing if A is not positive definite to working precision: if a pivot drowns in the rounding of its diagonal entry.
 template <typename T>
 constexpr std::optional<Vec3<T>> solveLdlt(const SymMat3<T>& A, const Vec3<T>& b) {
-  const T d0 = A.xx;
-  if (!(d0 > 0)) return std::nullopt;
-  const T l10 = A.xy / d0, l20 = A.xz / d0;
-  const T d1 = A.yy - l10 * A.xy;
-  if (!(d1 > 0)) return std::nullopt;
-  const T e = A.yz - l20 * A.xy;
-  const T l21 = e / d1;
-  const T d2 = A.zz - l20 * A.xz - l21 * e;
-  if (!(d2 > 0)) return std::nullopt;
-  const T y1 = b.y - l10 * b.x;
-  const T y2 = b.z - l20 * b.x - l21 * y1;
-  const T z = y2 / d2;
-  const T y = y1 / d1 - l21 * z;
-  return Vec3<T>{b.x / d0 - l10 * y - l20 * z, y, z};
+  Vec3<T> x{};
+  if (!detail::ldlt(A, b, x)) return std::nullopt;
+  return x;
 }
 
 /// Eigenvalues in descending order, with unit eigenvectors.
@@ -42,9 +54,16 @@ struct Eigen3 {
 /// (Lindstrom 2000). Zero for A = 0. `rank`, if given, receives the number of eigenvalues used.
 [[nodiscard]] Vec3d solvePseudoInverse(const SymMat3<double>& A, const Vec3d& b, double relativeCutoff, int* rank = nullptr);
 
-/// The point of the cube [−halfSize, halfSize]³ that minimises f(x) = xᵀAx − 2bᵀx; exact, not a clamp of the free minimiser.
+/// Of the points where f is least, with the eigenvalues cut off as above, the one nearest to `reference`: the way to
+/// minimise classical quadrics, whose minimum is a line or a plane more often than a point.
+[[nodiscard]] Vec3d minimizeNear(const Quadric<double>& f, const Vec3d& reference, double relativeCutoff, int* rank = nullptr);
+
+/// The point of `box` that minimises f(x) = xᵀAx − 2bᵀx; exact, not a clamp of the free minimiser.
 /// \param A positive definite.
 /// \param free the unconstrained minimiser A⁻¹b.
+[[nodiscard]] Vec3d minimizeInBox(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, const Box& box);
+
+/// The same for the cube [−halfSize, halfSize]³.
 [[nodiscard]] Vec3d minimizeInCube(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, double halfSize);
 
 }  // namespace pdc

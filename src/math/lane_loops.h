@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "pdc/math/quadric_lanes.h"
+#include "pdc/math/simd_level.h"
+
+/// Loops over blocks and their lanes, compiled once for every SimdLevel. Bodies are written for one lane, in plain scalars;
+/// `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
+namespace pdc::detail {
+
+/// Calls f(lane) for every lane. Lanes do not see each other: f may read and write any block at its own lane only.
+template <typename F>
+inline void forEachLane(const F& f) {
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#else
+#pragma GCC ivdep
+#endif
+  for (int lane = 0; lane < kLanes; ++lane) f(lane);
+}
+
+template <typename F>
+[[gnu::flatten]] void loopBaseline(std::size_t count, const F& f) {
+  for (std::size_t i = 0; i < count; ++i) f(i);
+}
+
+#if defined(__x86_64__)
+template <typename F>
+[[gnu::flatten, gnu::target("avx2")]] void loopAvx2(std::size_t count, const F& f) {
+  for (std::size_t i = 0; i < count; ++i) f(i);
+}
+
+template <typename F>
+[[gnu::flatten, gnu::target("avx512f")]] void loopAvx512(std::size_t count, const F& f) {
+  for (std::size_t i = 0; i < count; ++i) f(i);
+}
+#endif
+
+/// Calls f(i) for i = 0 … count − 1 with the instructions of `level`, or of the best one there is.
+template <typename F>
+void forEachBlock(SimdLevel level, std::size_t count, const F& f) {
+#if defined(__x86_64__)
+  switch (std::min(level, bestSimdLevel())) {
+    case SimdLevel::kAvx512:
+      return loopAvx512(count, f);
+    case SimdLevel::kAvx2:
+      return loopAvx2(count, f);
+    case SimdLevel::kBaseline:
+      break;
+  }
+#else
+  static_cast<void>(level);
+#endif
+  loopBaseline(count, f);
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,198 @@
+#include "pdc/math/quadric_batch.h"
+
+#include <stdexcept>
+
+#include "math/lane_loops.h"
+#include "pdc/math/solvers.h"
+#include "pdc/math/triangle_quadric.h"
+
+namespace pdc {
+namespace {
+
+void expectLength(std::size_t length, std::size_t expected) {
+  if (length != expected) throw std::invalid_argument("pdc: the spans of a batch differ in length");
+}
+
+/// out[i] = make(i, lane), in all lanes of all blocks.
+template <typename Out, typename F>
+void build(SimdLevel level, std::span<Out> out, const F& make) {
+  detail::forEachBlock(level, out.size(), [out, &make](std::size_t i) {
+    Out& block = out[i];
+    detail::forEachLane([&](int lane) { block.set(lane, make(i, lane)); });
+  });
+}
+
+/// Blocks that are summed one after the other; the rounding of so few does not matter beside that of the quadrics.
+constexpr std::size_t kSumRun = 64;
+
+/// sum += the sum of the blocks, lane by lane.
+template <typename T>
+void sumBlocks(SimdLevel level, std::span<const QuadricLanes<T>> quadrics, QuadricLanes<T>& sum) {
+  if (quadrics.size() > kSumRun) {
+    const std::size_t half = quadrics.size() / 2;
+    QuadricLanes<T> second{};
+    sumBlocks(level, quadrics.first(half), sum);
+    sumBlocks(level, quadrics.subspan(half), second);
+    addQuadrics(std::span<const QuadricLanes<T>>(&second, 1), std::span<QuadricLanes<T>>(&sum, 1), level);
+    return;
+  }
+  detail::forEachBlock(level, quadrics.size(), [quadrics, &sum](std::size_t i) {
+    const QuadricLanes<T>& block = quadrics[i];
+    detail::forEachLane([&](int lane) { sum.set(lane, sum.get(lane) + block.get(lane)); });
+  });
+}
+
+}  // namespace
+
+template <typename Out>
+void planeQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, std::span<Out> out, SimdLevel level) {
+  expectLength(planes.size(), out.size());
+  build(level, out, [planes](std::size_t i, int lane) {
+    return planeQuadric(planes[i].q.get(lane), planes[i].n.get(lane));
+  });
+}
+
+template <typename Out>
+void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, typename Out::Scalar sigmaNormal,
+                                typename Out::Scalar sigmaPosition, std::span<Out> out, SimdLevel level) {
+  expectLength(planes.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    return probabilisticPlaneQuadric(planes[i].q.get(lane), planes[i].n.get(lane), sigmaNormal, sigmaPosition);
+  });
+}
+
+template <typename Out>
+void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes,
+                                std::span<const SymMat3Lanes<typename Out::Scalar>> Sigma_n, std::span<Out> out,
+                                SimdLevel level) {
+  expectLength(planes.size(), out.size());
+  expectLength(Sigma_n.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    return probabilisticPlaneQuadric(planes[i].q.get(lane), planes[i].n.get(lane), Sigma_n[i].get(lane));
+  });
+}
+
+template <typename T>
+void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>> planes, std::span<const SymMat3Lanes<T>> Sigma_n,
+                                std::span<const SymMat3Lanes<T>> Sigma_q, std::span<QuadricLanes<T>> out,
+                                SimdLevel level) {
+  expectLength(planes.size(), out.size());
+  expectLength(Sigma_n.size(), out.size());
+  expectLength(Sigma_q.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    return probabilisticPlaneQuadric(planes[i].q.get(lane), planes[i].n.get(lane), Sigma_n[i].get(lane),
+                                     Sigma_q[i].get(lane));
+  });
+}
+
+template <typename Out>
+void triangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles, std::span<Out> out,
+                      SimdLevel level) {
+  expectLength(triangles.size(), out.size());
+  build(level, out, [triangles](std::size_t i, int lane) {
+    const auto& t = triangles[i];
+    return triangleQuadric(t.p.get(lane), t.q.get(lane), t.r.get(lane));
+  });
+}
+
+template <typename Out>
+void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
+                                   typename Out::Scalar sigma, std::span<Out> out, SimdLevel level) {
+  expectLength(triangles.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    const auto& t = triangles[i];
+    return probabilisticTriangleQuadric(t.p.get(lane), t.q.get(lane), t.r.get(lane), sigma);
+  });
+}
+
+template <typename Out>
+void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
+                                   std::span<const Vec3Lanes<typename Out::Scalar>> sigmas, std::span<Out> out,
+                                   SimdLevel level) {
+  expectLength(triangles.size(), out.size());
+  expectLength(sigmas.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    const auto& t = triangles[i];
+    const auto s = sigmas[i].get(lane);
+    return probabilisticTriangleQuadric(t.p.get(lane), t.q.get(lane), t.r.get(lane), s.x, s.y, s.z);
+  });
+}
+
+template <typename Out>
+void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
+                                   std::span<const TriangleCovarianceLanes<typename Out::Scalar>> Sigmas,
+                                   std::span<Out> out, SimdLevel level) {
+  expectLength(triangles.size(), out.size());
+  expectLength(Sigmas.size(), out.size());
+  build(level, out, [=](std::size_t i, int lane) {
+    const auto &t = triangles[i];
+    const auto &s = Sigmas[i];
+    return probabilisticTriangleQuadric(t.p.get(lane), t.q.get(lane), t.r.get(lane), s.p.get(lane), s.q.get(lane),
+                                        s.r.get(lane));
+  });
+}
+
+template <typename Lanes>
+void addQuadrics(std::span<const Lanes> from, std::span<Lanes> to, SimdLevel level) {
+  expectLength(from.size(), to.size());
+  build(level, to, [=](std::size_t i, int lane) { return to[i].get(lane) + from[i].get(lane); });
+}
+
+template <typename T>
+Quadric<T> sumQuadrics(std::span<const QuadricLanes<T>> quadrics, SimdLevel level) {
+  QuadricLanes<T> sum{};
+  sumBlocks(level, quadrics, sum);
+  for (int width = kLanes / 2; width > 0; width /= 2)
+    for (int lane = 0; lane < width; ++lane) sum.set(lane, sum.get(lane) + sum.get(lane + width));
+  return sum.get(0);
+}
+
+template <typename Lanes>
+void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename Lanes::Scalar>> solutions,
+               SimdLevel level) {
+  using T = typename Lanes::Scalar;
+  expectLength(systems.size(), solutions.size());
+  detail::forEachBlock(level, systems.size(), [=](std::size_t i) {
+    const Lanes& block = systems[i];
+    SolutionLanes<T>& solution = solutions[i];
+    // Two loops, for compilers that would put the selection into branches and then not vectorise.
+    detail::forEachLane([&](int lane) {
+      Vec3<T> x;
+      solution.solved[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x);
+      solution.x.set(lane, x);
+    });
+    detail::forEachLane([&](int lane) {
+      const bool solved = solution.solved[lane] != 0;
+      const Vec3<T> x = solution.x.get(lane);
+      solution.x.set(lane, {solved ? x.x : T(0), solved ? x.y : T(0), solved ? x.z : T(0)});
+    });
+  });
+}
+
+// The batches for one scalar and one kind of output.
+#define PDC_INSTANTIATE_FOR_OUT(T, Out)                                                                               \
+  template void planeQuadrics(std::span<const PlaneLanes<T>>, std::span<Out<T>>, SimdLevel);                           \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, T, T, std::span<Out<T>>, SimdLevel);        \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,           \
+                                           std::span<Out<T>>, SimdLevel);                                              \
+  template void triangleQuadrics(std::span<const TriangleLanes<T>>, std::span<Out<T>>, SimdLevel);                     \
+  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, T, std::span<Out<T>>, SimdLevel);     \
+  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, std::span<const Vec3Lanes<T>>,        \
+                                              std::span<Out<T>>, SimdLevel);                                           \
+  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>,                                       \
+                                              std::span<const TriangleCovarianceLanes<T>>, std::span<Out<T>>,          \
+                                              SimdLevel);                                                              \
+  template void addQuadrics(std::span<const Out<T>>, std::span<Out<T>>, SimdLevel);                                    \
+  template void solveLdlt(std::span<const Out<T>>, std::span<SolutionLanes<T>>, SimdLevel);
+
+#define PDC_INSTANTIATE(T)                                                                                         \
+  PDC_INSTANTIATE_FOR_OUT(T, QuadricLanes)                                                                         \
+  PDC_INSTANTIATE_FOR_OUT(T, NormalEquationsLanes)                                                                 \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,       \
+                                           std::span<const SymMat3Lanes<T>>, std::span<QuadricLanes<T>>, SimdLevel); \
+  template Quadric<T> sumQuadrics(std::span<const QuadricLanes<T>>, SimdLevel);
+
+PDC_INSTANTIATE(float)
+PDC_INSTANTIATE(double)
+
+}  // namespace pdc

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <string>
+
+#include "pdc/error.h"
+
+namespace pdc {
+
+/// What became of many attempts, each in a child process.
+struct ForkedResult {
+  std::size_t successes = 0, errors = 0;  ///< Attempts that returned, and that threw Error.
+  std::string failure;  ///< The first attempt that ended otherwise: by a signal, out of time, another exception.
+};
+
+namespace detail {
+
+struct ForkedState {
+  std::size_t current, successes, errors;
+};
+
+inline void limitChild() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr rlim_t kAddressSpace = rlim_t{4} << 30;
+  const rlimit limit{kAddressSpace, kAddressSpace};
+  ::setrlimit(RLIMIT_AS, &limit);
+#endif
+  const rlimit noCore{0, 0};
+  ::setrlimit(RLIMIT_CORE, &noCore);
+}
+
+[[noreturn]] inline void runChild(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& attempt,
+                                  ForkedState& state) {
+  constexpr unsigned kSeconds = 10;
+  limitChild();
+  for (std::size_t i = begin; i < end; ++i) {
+    state.current = i;
+    ::alarm(kSeconds);
+    try {
+      attempt(i);
+      ++state.successes;
+    } catch (const Error&) {
+      ++state.errors;
+    } catch (...) {
+      ::_exit(1);
+    }
+  }
+  ::_exit(0);
+}
+
+}  // namespace detail
+
+/// Calls attempt(0), ..., attempt(count - 1) in children of `perChild` attempts each, with ten seconds and 4 GiB of
+/// address space for each. The calling process must not have started threads.
+inline ForkedResult runForked(std::size_t count, std::size_t perChild,
+                              const std::function<void(std::size_t)>& attempt) {
+  auto* state = static_cast<detail::ForkedState*>(
+      ::mmap(nullptr, sizeof(detail::ForkedState), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  if (state == MAP_FAILED) return {0, 0, "no shared memory"};
+  *state = {};
+  ForkedResult result;
+  for (std::size_t begin = 0; begin < count && result.failure.empty(); begin += perChild) {
+    const pid_t child = ::fork();
+    if (child == 0) detail::runChild(begin, std::min(count, begin + perChild), attempt, *state);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    const std::string which = "attempt " + std::to_string(state->current);
+    if (WIFSIGNALED(status)) result.failure = which + " ended by signal " + std::to_string(WTERMSIG(status));
+    if (WIFEXITED(status) && WEXITSTATUS(status) != 0) result.failure = which + " threw something that is no Error";
+  }
+  result.successes = state->successes;
+  result.errors = state->errors;
+  ::munmap(state, sizeof(detail::ForkedState));
+  return result;
+}
+
+}  // namespace pdc
