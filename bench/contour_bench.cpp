@@ -1,12 +1,12 @@
 // Contouring a level-set sphere, grid in memory to mesh in memory, beside OpenVDB's own mesher in the same process.
 
-#include <map>
-
 #include <benchmark/benchmark.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/global_control.h>
+
+#include <map>
 
 #include "pdc/extract/contour.h"
 #include "pdc/sample/grid_source.h"
@@ -17,20 +17,23 @@ openvdb::FloatGrid::Ptr sphere(int radius) {
   static std::map<int, openvdb::FloatGrid::Ptr> made;
   auto& grid = made[radius];
   if (!grid)
-    grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), openvdb::Vec3f(0), 1.0F, 3.0F);
+    grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), openvdb::Vec3f(0), 1.0F,
+                                                                    3.0F);
   return grid;
 }
 
 void report(benchmark::State& state, std::size_t vertices) {
   state.counters["vertices"] = static_cast<double>(vertices);
-  state.counters["ns/vertex"] = benchmark::Counter(
-      static_cast<double>(vertices) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns/vertex"] =
+      benchmark::Counter(static_cast<double>(vertices) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 /// Arguments: radius in voxels, threads.
 void pdcContour(benchmark::State& state, pdc::Placement placement) {
   const auto grid = sphere(static_cast<int>(state.range(0)));
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(1)));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(1)));
   std::size_t vertices = 0;
   for (auto _ : state) {
     const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid), {.placement = placement});
@@ -42,7 +45,8 @@ void pdcContour(benchmark::State& state, pdc::Placement placement) {
 
 void volumeToMesh(benchmark::State& state) {
   const auto grid = sphere(static_cast<int>(state.range(0)));
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(1)));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(1)));
   std::size_t vertices = 0;
   for (auto _ : state) {
     openvdb::tools::VolumeToMesh mesher(0, 0);

@@ -1,7 +1,9 @@
-# Flags for our own targets only. Results must not depend on what a compiler fuses, so contraction is off.
+# Flags for our own targets only. Results must not depend on what a compiler fuses, so contraction is off. Nothing reads
+# errno or traps on floating-point operations; saying so changes no value and lets square roots and minima vectorise.
 # clang++ counts signed indices into std::array as conversions; g++ does not.
 add_library(pdc_options INTERFACE)
-target_compile_options(pdc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+target_compile_options(pdc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
+  -fno-math-errno -fno-trapping-math)
 if(PDC_WERROR)
   target_compile_options(pdc_options INTERFACE -Werror)
 endif()

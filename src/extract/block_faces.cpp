@@ -1,16 +1,16 @@
 #include "extract/block_faces.h"
 
-#include <bit>
-
 #include <tbb/parallel_for.h>
+
+#include <bit>
 
 #include "extract/block_progress.h"
 
 namespace pdc::detail {
 namespace {
 
-/// The four cells about a lattice edge along `axis`, counter-clockwise seen from its high end: steps back along the next axis
-/// and the one after.
+/// The four cells about a lattice edge along `axis`, counter-clockwise seen from its high end: steps back along the
+/// next axis and the one after.
 constexpr int kRing[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 /// Centres of those cells from the edge's low end, by axis.
@@ -35,7 +35,12 @@ class BlockFaceWriter {
  public:
   BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored,
                   Quad* quads, Triangle* triangles)
-      : mBlocks(blocks), mTopology(topology), mErrors(errors), mMirrored(mirrored), mQuads(quads), mTriangles(triangles) {}
+      : mBlocks(blocks),
+        mTopology(topology),
+        mErrors(errors),
+        mMirrored(mirrored),
+        mQuads(quads),
+        mTriangles(triangles) {}
 
   void run(std::size_t block) const {
     const BlockTopology& own = mTopology.blocks[block];
@@ -102,8 +107,8 @@ class BlockFaceWriter {
 
 }  // namespace
 
-void writeFaces(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored, Quad* quads,
-                Triangle* triangles, const Monitor& monitor) {
+void writeFaces(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored,
+                Quad* quads, Triangle* triangles, const Monitor& monitor) {
   BlockProgress progress(monitor, "faces", blocks.coords.size());
   const BlockFaceWriter writer(blocks, topology, errors, mirrored, quads, triangles);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {

@@ -1,10 +1,10 @@
 #include "extract/block_topology.h"
 
-#include <algorithm>
-#include <bit>
-
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
 
 #include "extract/block_progress.h"
 
@@ -36,7 +36,8 @@ class BlockCounter {
       before = static_cast<std::uint16_t>(before + kBitCount[mOut.cells.word[row >> 3] >> 8 * (row & 7) & 0xFF]);
     }
     mOut.vertexCount = before;
-    if (!mOut.special.empty()) mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
+    if (!mOut.special.empty())
+      mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
     for (const CellMask& m : mOut.edges) mOut.quadCount += static_cast<std::uint32_t>(m.count());
   }
 
@@ -147,7 +148,8 @@ class BlockCounter {
       const int edge = std::countr_zero(e);
       if ((present >> edge & 1) != 0) continue;
       for (int other = 0; other < kEdges; ++other)
-        if ((present >> other & 1) != 0 && patches.vertex[other] == patches.vertex[edge]) open |= 1u << arcs.vertex[other];
+        if ((present >> other & 1) != 0 && patches.vertex[other] == patches.vertex[edge])
+          open |= 1u << arcs.vertex[other];
     }
     mOut.openArcs += static_cast<std::uint32_t>(std::popcount(open));
     addSpecial(64 * x + 8 * y + z, arcs, patches);
@@ -156,8 +158,8 @@ class BlockCounter {
   void addSpecial(int cell, const Patches& vertices, const Patches& patches) {
     int extra = 0;
     if (!mOut.special.empty()) extra = mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1;
-    mOut.special.push_back(
-        {static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extra), vertices.vertex, patches.vertex});
+    mOut.special.push_back({static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extra),
+                            vertices.vertex, patches.vertex});
   }
 
   const SurfaceBlocks& mBlocks;
@@ -218,7 +220,8 @@ Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, Flip
 void checkVertexCount(std::uint64_t vertices) {
   constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 32;
   if (vertices > kMaxVertices)
-    throw Error(fmt::format("the mesh would have {} vertices, the limit is {}; use a coarser lattice", vertices, kMaxVertices));
+    throw Error(
+        fmt::format("the mesh would have {} vertices, the limit is {}; use a coarser lattice", vertices, kMaxVertices));
 }
 
 }  // namespace pdc::detail

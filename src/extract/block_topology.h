@@ -13,20 +13,21 @@ namespace pdc::detail {
 
 /// A cell that does not simply have one vertex for all its sign-changing edges.
 struct SpecialCell {
-  std::uint16_t cell;          ///< 64x + 8y + z in its block.
-  std::uint8_t vertexCount;    ///< At least 1.
-  std::uint16_t extraBefore;   ///< Vertices beyond one per cell in the block's special cells before this one.
-  EdgeVertices vertex;         ///< Which of the vertices each edge with a quad belongs to.
-  EdgeVertices patch;          ///< Which surface patch each sign-changing edge belongs to; vertices of one patch coincide.
+  std::uint16_t cell;         ///< 64x + 8y + z in its block.
+  std::uint8_t vertexCount;   ///< At least 1.
+  std::uint16_t extraBefore;  ///< Vertices beyond one per cell in the block's special cells before this one.
+  EdgeVertices vertex;        ///< Which of the vertices each edge with a quad belongs to.
+  EdgeVertices patch;  ///< Which surface patch each sign-changing edge belongs to; vertices of one patch coincide.
 };
 
-/// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its points.
+/// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its
+/// points.
 struct BlockTopology {
-  CellMask cells;                          ///< Cells with at least one vertex.
-  std::array<CellMask, 3> edges;           ///< Per axis, the edges that get a quad.
+  CellMask cells;                             ///< Cells with at least one vertex.
+  std::array<CellMask, 3> edges;              ///< Per axis, the edges that get a quad.
   std::array<std::uint16_t, 64> cellsBefore;  ///< Cells in the rows of `cells` before row 8x + y.
-  std::array<std::int32_t, 8> lower;       ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
-  std::vector<SpecialCell> special;        ///< By ascending cell.
+  std::array<std::int32_t, 8> lower;          ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
+  std::vector<SpecialCell> special;           ///< By ascending cell.
   std::uint32_t vertexCount = 0, quadCount = 0;
   std::uint32_t openArcs = 0;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
   std::uint64_t firstVertex = 0, firstQuad = 0;
@@ -43,8 +44,8 @@ struct BlockTopology {
 constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
   const auto pair = [&](int dx, int dy) { return signs.row[kBlockPoints * (x + dx) + y + dy] >> z & 3; };
   const int r00 = pair(0, 0), r10 = pair(1, 0), r01 = pair(0, 1), r11 = pair(1, 1);
-  return (r00 & 1) | (r10 & 1) << 1 | (r01 & 1) << 2 | (r11 & 1) << 3 | (r00 >> 1) << 4 | (r10 >> 1) << 5 | (r01 >> 1) << 6 |
-         (r11 >> 1) << 7;
+  return (r00 & 1) | (r10 & 1) << 1 | (r01 & 1) << 2 | (r11 & 1) << 3 | (r00 >> 1) << 4 | (r10 >> 1) << 5 |
+         (r01 >> 1) << 6 | (r11 >> 1) << 7;
 }
 
 /// The topology of all blocks, with vertices and quads numbered through in block order.
@@ -53,7 +54,8 @@ struct Topology {
   std::uint64_t vertexCount = 0, quadCount = 0, openArcs = 0, multiVertexCells = 0;
 };
 
-/// Whether cells on both sides of an ambiguous face may be flipped. kNever exists for the tests, which show what it breaks.
+/// Whether cells on both sides of an ambiguous face may be flipped. kNever exists for the tests, which show what it
+/// breaks.
 enum class FlipRule { kSymmetric, kNever };
 
 /// Runs in parallel over blocks.

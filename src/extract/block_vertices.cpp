@@ -1,11 +1,11 @@
 #include "extract/block_vertices.h"
 
+#include <tbb/parallel_for.h>
+
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-
-#include <tbb/parallel_for.h>
 
 #include "extract/block_progress.h"
 
@@ -27,7 +27,8 @@ constexpr auto kEdgeBase = [] {
 /// Solves the vertices of one block after another, reusing its scratch space.
 class BlockVertexSolver {
  public:
-  BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, const VertexOutput& out, VertexCounts& counts)
+  BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, const VertexOutput& out,
+                    VertexCounts& counts)
       : mSource(source), mMap(source.map()), mSolver(solver), mOut(out), mCounts(counts) {}
 
   void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology) {
@@ -91,7 +92,8 @@ class BlockVertexSolver {
     });
   }
 
-  void solveOne(const EdgeIndex& edges, const CellMetric& metric, const Coord& cell, unsigned present, std::uint64_t vertex) {
+  void solveOne(const EdgeIndex& edges, const CellMetric& metric, const Coord& cell, unsigned present,
+                std::uint64_t vertex) {
     mSamples.size = 0;
     Vec3d normal{};
     for (unsigned bits = present; bits != 0; bits &= bits - 1) {

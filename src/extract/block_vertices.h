@@ -7,9 +7,10 @@
 
 namespace pdc::detail {
 
-/// What the choice of a quad's diagonal needs to know of each vertex: its place and the shape of its quadric's error there.
+/// What the choice of a quad's diagonal needs to know of each vertex: its place and the shape of its quadric's error
+/// there.
 struct VertexError {
-  Vec3f x;             ///< Lattice units from the centre of the vertex' cell.
+  Vec3f x;  ///< Lattice units from the centre of the vertex' cell.
   SymMat3<float> A;
   Vec3f halfGradient;
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 
 /// Everything the topology of dual contouring needs to know of one cell, derived at compile time from one picture:
-/// corner c = x + 2y + 4z; edge e = 4·axis + k, whose lower corner lies at bit 0 of k along the next axis and bit 1 of k along
-/// the one after; face f = 2·axis + side. A *code* has bit c set if corner c is inside.
+/// corner c = x + 2y + 4z; edge e = 4·axis + k, whose lower corner lies at bit 0 of k along the next axis and bit 1 of
+/// k along the one after; face f = 2·axis + side. A *code* has bit c set if corner c is inside.
 ///
-/// A cell's surface meets its faces in *segments*, each joining two sign-changing edges of a face. Every such edge lies in two
-/// faces, so segments close into cycles: the cell's *patches*, each of which gets one vertex. (Nielson 2004; Schaefer, Ju &
-/// Warren 2007.) On a face with four sign changes the pairing is a choice: normally each inside corner is cut off by itself;
-/// in a *flipped* cell each outside corner is.
+/// A cell's surface meets its faces in *segments*, each joining two sign-changing edges of a face. Every such edge lies
+/// in two faces, so segments close into cycles: the cell's *patches*, each of which gets one vertex. (Nielson 2004;
+/// Schaefer, Ju & Warren 2007.) On a face with four sign changes the pairing is a choice: normally each inside corner
+/// is cut off by itself; in a *flipped* cell each outside corner is.
 namespace pdc::detail {
 
 inline constexpr int kCorners = 8, kEdges = 12, kFaces = 6;
@@ -26,7 +26,8 @@ constexpr int edgeHighCorner(int e) { return edgeLowCorner(e) | 1 << edgeAxis(e)
 /// The edge between two corners that differ in one bit.
 constexpr int edgeBetween(int c0, int c1) {
   for (int e = 0; e < kEdges; ++e)
-    if ((edgeLowCorner(e) == c0 && edgeHighCorner(e) == c1) || (edgeLowCorner(e) == c1 && edgeHighCorner(e) == c0)) return e;
+    if ((edgeLowCorner(e) == c0 && edgeHighCorner(e) == c1) || (edgeLowCorner(e) == c1 && edgeHighCorner(e) == c0))
+      return e;
   return kNone;
 }
 
@@ -41,7 +42,8 @@ constexpr int faceCorner(int f, int i) {
 inline constexpr auto kFaceEdge = [] {
   std::array<std::array<std::int8_t, 4>, kFaces> edge{};
   for (int f = 0; f < kFaces; ++f)
-    for (int i = 0; i < 4; ++i) edge[f][i] = static_cast<std::int8_t>(edgeBetween(faceCorner(f, i), faceCorner(f, i + 1)));
+    for (int i = 0; i < 4; ++i)
+      edge[f][i] = static_cast<std::int8_t>(edgeBetween(faceCorner(f, i), faceCorner(f, i + 1)));
   return edge;
 }();
 
@@ -128,8 +130,8 @@ constexpr Patches connect(const Segments& s, unsigned present) {
 struct CellEntry {
   std::uint16_t edges = 0;  ///< Sign-changing edges, bit e.
   Patches patches;          ///< Normal pairing.
-  /// The only ambiguous face of a cell with one patch whose two segments on that face belong to the same patch, or kNone.
-  /// Two such cells at the same face would give four faces at one mesh edge; both are flipped then.
+  /// The only ambiguous face of a cell with one patch whose two segments on that face belong to the same patch, or
+  /// kNone. Two such cells at the same face would give four faces at one mesh edge; both are flipped then.
   std::uint8_t flipFace = kNone;
   Patches flipped;  ///< Pairing when flipped; only where flipFace is set.
 };

@@ -1,9 +1,9 @@
 #include "pdc/extract/contour.h"
 
-#include <stdexcept>
-
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
+
+#include <stdexcept>
 
 #include "extract/block_faces.h"
 #include "extract/block_topology.h"
@@ -38,17 +38,18 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
     mesh.quads.resize(topology.quadCount);
   }
   detail::writeFaces(blocks, topology, errors.data(), source.map().mirrored(),
-                     options.triangles ? nullptr : mesh.quads.data(), options.triangles ? mesh.triangles.data() : nullptr,
-                     monitor);
+                     options.triangles ? nullptr : mesh.quads.data(),
+                     options.triangles ? mesh.triangles.data() : nullptr, monitor);
   if (report != nullptr)
-    *report = {blocks.coords.size(), counts.crossings,          counts.outOfCell,      counts.moved,
+    *report = {blocks.coords.size(), counts.crossings,          counts.outOfCell,    counts.moved,
                topology.openArcs,    topology.multiVertexCells, counts.withoutNormal};
   return mesh;
 }
 
 }  // namespace
 
-Mesh contour(const HermiteSource& source, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
+Mesh contour(const HermiteSource& source, const ContourOptions& options, ContourReport* report,
+             const Monitor& monitor) {
   checkOptions(options);
   if (options.threads == 0) return run(source, options, report, monitor);
   tbb::task_arena arena(options.threads);

@@ -23,22 +23,22 @@ struct CellMetric {
 struct PatchSamples {
   static constexpr int kMax = 12;
   std::array<Vec3d, kMax> position;
-  /// The row Mᵀn of each plane: |row · (x − position)| is the distance to it in voxels, measured in world space. Zero where
-  /// there is no normal.
+  /// The row Mᵀn of each plane: |row · (x − position)| is the distance to it in voxels, measured in world space. Zero
+  /// where there is no normal.
   std::array<Vec3d, kMax> row;
   int size = 0;
 };
 
 struct SolvedVertex {
-  Vec3d x;                ///< Lattice units from the centre of the cell.
-  SymMat3<double> A;      ///< Of the patch's quadric.
-  Vec3d halfGradient;     ///< Ax − b: zero where the vertex is the free minimiser.
-  bool outOfCell = false; ///< The free minimiser lay outside the cell.
-  bool moved = false;     ///< The vertex is not the free minimiser.
+  Vec3d x;                 ///< Lattice units from the centre of the cell.
+  SymMat3<double> A;       ///< Of the patch's quadric.
+  Vec3d halfGradient;      ///< Ax − b: zero where the vertex is the free minimiser.
+  bool outOfCell = false;  ///< The free minimiser lay outside the cell.
+  bool moved = false;      ///< The vertex is not the free minimiser.
 };
 
-/// Places the vertex of a patch: minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world space, that
-/// is σn² G in lattice units.
+/// Places the vertex of a patch: minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world space,
+/// that is σn² G in lattice units.
 class VertexSolver {
  public:
   VertexSolver(double sigmaNormal, Placement placement);

@@ -28,7 +28,8 @@ void ByteReader::seek(std::uint64_t position, std::uint64_t end) {
 
 void ByteReader::require(std::uint64_t bytes) const {
   if (bytes > left())
-    throw Error(fmt::format("ends early: {} bytes are needed at byte {}, but only {} are there", bytes, mPosition, left()));
+    throw Error(
+        fmt::format("ends early: {} bytes are needed at byte {}, but only {} are there", bytes, mPosition, left()));
 }
 
 void ByteReader::skip(std::uint64_t bytes) {

@@ -1,13 +1,13 @@
 #include "extract/cell_table.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <map>
 #include <set>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 namespace pdc::detail {
 namespace {
@@ -74,8 +74,8 @@ TEST(CellTable, OppositeOutsideCornersGetTwoVertices) {
   for (const int code : {126, 189, 219, 231}) EXPECT_EQ(kCellTable[code].patches.count, 2) << code;
 }
 
-/// Vertex pairs of the segments on the face between two cells, from both sides; a pair that occurs twice would give one mesh
-/// edge four faces. Cell 1 lies beyond face 2·axis + 1 of cell 0.
+/// Vertex pairs of the segments on the face between two cells, from both sides; a pair that occurs twice would give one
+/// mesh edge four faces. Cell 1 lies beyond face 2·axis + 1 of cell 0.
 bool facePairsDistinct(int axis, int code0, bool flip0, int code1, bool flip1) {
   const Segments s0 = segments(code0, flip0), s1 = segments(code1, flip1);
   const auto onFace = [](const Segments& s, int face) {
@@ -88,9 +88,7 @@ bool facePairsDistinct(int axis, int code0, bool flip0, int code1, bool flip1) {
   std::set<std::pair<int, int>> theirs;
   // The same lattice edge is, in cell 1, the edge one step lower along the axis.
   for (const auto& [a, b] : onFace(s1, 2 * axis)) {
-    const auto across = [&](int e) {
-      return edgeBetween(edgeLowCorner(e) | 1 << axis, edgeHighCorner(e) | 1 << axis);
-    };
+    const auto across = [&](int e) { return edgeBetween(edgeLowCorner(e) | 1 << axis, edgeHighCorner(e) | 1 << axis); };
     theirs.insert(std::minmax(across(a), across(b)));
   }
   EXPECT_EQ(mine, theirs) << "the cells disagree about the segments of their common face";
@@ -150,8 +148,9 @@ class EdgeNeighbourhood {
   SignLattice mLattice;
 };
 
-// All 2^18 neighbourhoods of a lattice edge. Whether a cell flips can depend on a cell outside, so wherever it does both
-// answers are tried: on each of the central quad's four sides exactly one other quad continues it, and no diagonal recurs.
+// All 2^18 neighbourhoods of a lattice edge. Whether a cell flips can depend on a cell outside, so wherever it does
+// both answers are tried: on each of the central quad's four sides exactly one other quad continues it, and no diagonal
+// recurs.
 TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
   long quads = 0;
   for (unsigned bits = 0; bits < 1u << 18; ++bits) {
@@ -161,9 +160,8 @@ TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
     for (int k = 0; k < 4; ++k) {
       const int face = kCellTable[at.code[k]].flipFace;
       const int next = (k + 1) & 3, previous = (k + 3) & 3;
-      canFlip[k] = face == kNone ? 0
-                   : face == EdgeNeighbourhood::faceToNext(k)
-                       ? (kCellTable[at.code[next]].flipFace != kNone ? 2 : 0)
+      canFlip[k] = face == kNone                              ? 0
+                   : face == EdgeNeighbourhood::faceToNext(k) ? (kCellTable[at.code[next]].flipFace != kNone ? 2 : 0)
                    : (face ^ 1) == EdgeNeighbourhood::faceToNext(previous)
                        ? (kCellTable[at.code[previous]].flipFace != kNone ? 2 : 0)
                        : 1;  // 0 never, 1 depends on a cell outside, 2 always.
@@ -201,7 +199,10 @@ TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
         int same = 0;
         for (int i = 0; i < s.size; ++i) {
           if (s.at[i].face != face) continue;
-          const auto in = [&](int e) { return patches(at.code[n], flip[n]).vertex[edgeBetween(edgeLowCorner(e) ^ 1 << axis, edgeHighCorner(e) ^ 1 << axis)]; };
+          const auto in = [&](int e) {
+            return patches(at.code[n], flip[n])
+                .vertex[edgeBetween(edgeLowCorner(e) ^ 1 << axis, edgeHighCorner(e) ^ 1 << axis)];
+          };
           same += patches(at.code[k], flip[k]).vertex[s.at[i].edge0] ==
                       patches(at.code[k], flip[k]).vertex[EdgeNeighbourhood::centralEdge(k)] &&
                   in(s.at[i].edge0) == patches(at.code[n], flip[n]).vertex[EdgeNeighbourhood::centralEdge(n)];

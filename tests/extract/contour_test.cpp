@@ -1,14 +1,14 @@
 #include "pdc/extract/contour.h"
 
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <set>
 #include <string>
-
-#include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "extract/block_topology.h"
 #include "pdc/field/operators.h"
@@ -50,7 +50,8 @@ double distanceToMesh(const Vec3d& p, const Mesh& mesh, double reach) {
   for (const Triangle& t : mesh.triangles) {
     const Vec3d a = vecCast<double>(mesh.positions[t[0]]);
     if (length(p - a) > reach) continue;
-    best = std::min(best, distanceToTriangle(p, a, vecCast<double>(mesh.positions[t[1]]), vecCast<double>(mesh.positions[t[2]])));
+    best = std::min(
+        best, distanceToTriangle(p, a, vecCast<double>(mesh.positions[t[1]]), vecCast<double>(mesh.positions[t[2]])));
   }
   return best;
 }
@@ -80,7 +81,8 @@ TEST(Contour, SphereConvergesWithSecondOrder) {
   for (const int resolution : {16, 32, 64, 128}) {
     const Mesh mesh = contour(source(sphere({0.01, 0.02, 0.03}, 0.8), resolution));
     double sum = 0;
-    for (const Vec3f& p : mesh.positions) sum += std::pow(length(vecCast<double>(p) - Vec3d{0.01, 0.02, 0.03}) - 0.8, 2);
+    for (const Vec3f& p : mesh.positions)
+      sum += std::pow(length(vecCast<double>(p) - Vec3d{0.01, 0.02, 0.03}) - 0.8, 2);
     const double rms = std::sqrt(sum / static_cast<double>(mesh.positions.size()));
     EXPECT_TRUE(previous == 0 || previous / rms > 3.6) << resolution;
     previous = rms;

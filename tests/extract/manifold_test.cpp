@@ -1,6 +1,6 @@
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include <random>
 
 #include "extract/block_faces.h"
 #include "extract/block_topology.h"
@@ -12,8 +12,8 @@
 namespace pdc {
 namespace {
 
-/// Small grids are packed into one volume, this far apart: not a multiple of the block size, so that they lie across block
-/// borders in every way.
+/// Small grids are packed into one volume, this far apart: not a multiple of the block size, so that they lie across
+/// block borders in every way.
 constexpr int kPitch = 9;
 constexpr int kPerAxis = 12;
 
@@ -106,7 +106,8 @@ TEST(Manifold, OpenBordersAreManifoldToo) {
     constexpr int kSize = 40;
     SignSource source(kSize, true);
     std::bernoulli_distribution inside(density);
-    for (int i = 0; i < kSize * kSize * kSize; ++i) source.set(i / (kSize * kSize), i / kSize % kSize, i % kSize, inside(engine));
+    for (int i = 0; i < kSize * kSize * kSize; ++i)
+      source.set(i / (kSize * kSize), i / kSize % kSize, i % kSize, inside(engine));
     ContourReport report;
     const MeshReport mesh = analyze(contour(source, {.sigmaNormal = 0.1}, &report));
     expectSound(mesh);

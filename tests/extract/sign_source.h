@@ -8,11 +8,12 @@
 
 namespace pdc {
 
-/// A dense volume of signs as a source: everything beyond it is outside. Crossings and normals are pseudo-random functions of
-/// the lattice edge, so that vertices go wherever the placement lets them.
+/// A dense volume of signs as a source: everything beyond it is outside. Crossings and normals are pseudo-random
+/// functions of the lattice edge, so that vertices go wherever the placement lets them.
 class SignSource final : public HermiteSource {
  public:
-  explicit SignSource(int size, bool open = false) : mSize(size), mOpen(open), mInside(std::size_t(size) * size * size) {}
+  explicit SignSource(int size, bool open = false)
+      : mSize(size), mOpen(open), mInside(std::size_t(size) * size * size) {}
 
   void set(int x, int y, int z, bool inside) { mInside[index(x, y, z)] = inside; }
   [[nodiscard]] bool inside(int x, int y, int z) const {
@@ -34,7 +35,8 @@ class SignSource final : public HermiteSource {
     return out;
   }
 
-  void fillHermite(const Coord& block, const BlockSigns&, const EdgeIndex& edges, HermiteBlock& hermite) const override {
+  void fillHermite(const Coord& block, const BlockSigns&, const EdgeIndex& edges,
+                   HermiteBlock& hermite) const override {
     edges.forEach([&](int i, int axis, int x, int y, int z) {
       std::uint64_t h = hash(axis, block[0] * kBlockSize + x, block[1] * kBlockSize + y, block[2] * kBlockSize + z);
       const auto uniform = [&h] {

@@ -1,11 +1,11 @@
 #include "extract/vertex_solver.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "pdc/math/solvers.h"
 
@@ -17,7 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Eigen::Vector3d toEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d fromEigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Planes near the centre of a cell with `normals` distinct directions, in world units of a lattice with the given metric.
+/// Planes near the centre of a cell with `normals` distinct directions, in world units of a lattice with the given
+/// metric.
 class RandomPatch {
  public:
   explicit RandomPatch(unsigned seed) : mEngine(seed) {}

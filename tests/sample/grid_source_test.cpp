@@ -1,15 +1,15 @@
 #include "pdc/sample/grid_source.h"
 
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/VolumeToMesh.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
 
 #include "pdc/extract/contour.h"
 #include "pdc/mesh/mesh_report.h"
@@ -22,7 +22,8 @@ using openvdb::FloatGrid;
 constexpr double kPi = 3.14159265358979323846;
 double sphereVolume(double r) { return 4.0 / 3.0 * kPi * r * r * r; }
 
-FloatGrid::Ptr sphere(float radius, const openvdb::Vec3f& center = openvdb::Vec3f(0.3F, -0.2F, 0.1F), float halfWidth = 3) {
+FloatGrid::Ptr sphere(float radius, const openvdb::Vec3f& center = openvdb::Vec3f(0.3F, -0.2F, 0.1F),
+                      float halfWidth = 3) {
   return openvdb::tools::createLevelSetSphere<FloatGrid>(radius, center, 1.0F, halfWidth);
 }
 
@@ -62,8 +63,7 @@ TEST_F(GridSourceTest, SphereIsASphere) {
   const MeshReport r = analyze(mesh);
   expectClosedSolid(r, 2);
   EXPECT_NEAR(r.volume / sphereVolume(radius), 1, 1e-3);
-  for (const Vec3f& p : mesh.positions)
-    ASSERT_NEAR(length(vecCast<double>(p) - Vec3d{0.3, -0.2, 0.1}), radius, 0.02);
+  for (const Vec3f& p : mesh.positions) ASSERT_NEAR(length(vecCast<double>(p) - Vec3d{0.3, -0.2, 0.1}), radius, 0.02);
 }
 
 TEST_F(GridSourceTest, HasOneFaceForEachOfVolumeToMesh) {
@@ -80,14 +80,16 @@ TEST_F(GridSourceTest, HasOneFaceForEachOfVolumeToMesh) {
 TEST_F(GridSourceTest, EveryValueTypeGivesTheSameSphere) {
   const auto distance = [](int x, int y, int z) { return std::sqrt(double(x * x + y * y + z * z)) - 9.5; };
   constexpr int kLo = -13, kHi = 13;
-  const auto asFloat = cubeGrid<FloatGrid>(kLo, kHi, 3.0F, [&](int x, int y, int z) { return float(distance(x, y, z)); });
+  const auto asFloat =
+      cubeGrid<FloatGrid>(kLo, kHi, 3.0F, [&](int x, int y, int z) { return float(distance(x, y, z)); });
   const auto asDouble = cubeGrid<openvdb::DoubleGrid>(kLo, kHi, 3.0, distance);
   const auto asInt32 = cubeGrid<openvdb::Int32Grid>(
       kLo, kHi, 3000, [&](int x, int y, int z) { return openvdb::Int32(std::lround(1000 * distance(x, y, z))); });
   const auto asInt64 = cubeGrid<openvdb::Int64Grid>(kLo, kHi, 3000000000000, [&](int x, int y, int z) {
     return openvdb::Int64(std::llround(1e12 * distance(x, y, z)));
   });
-  const auto asBool = cubeGrid<openvdb::BoolGrid>(kLo, kHi, false, [&](int x, int y, int z) { return distance(x, y, z) < 0; });
+  const auto asBool =
+      cubeGrid<openvdb::BoolGrid>(kLo, kHi, false, [&](int x, int y, int z) { return distance(x, y, z) < 0; });
   const Mesh reference = contour(GridSource(asFloat));
   expectClosedSolid(analyze(reference), 2);
   for (const openvdb::GridBase::Ptr& grid : std::initializer_list<openvdb::GridBase::Ptr>{asDouble, asInt32, asInt64}) {
@@ -132,8 +134,8 @@ TEST_F(GridSourceTest, AnyIsovalueInTheBandMovesTheSurface) {
   for (const double iso : {-2.4, -1.0, 0.5, 2.4}) {
     const Mesh mesh = contour(GridSource(grid, {.iso = iso}));
     expectClosedSolid(analyze(mesh), 2);
-    // Near the limits of the band an edge's far end is clamped, which shifts the crossing, but one-sided differences keep
-    // the normals.
+    // Near the limits of the band an edge's far end is clamped, which shifts the crossing, but one-sided differences
+    // keep the normals.
     const double tolerance = std::abs(iso) < 2 ? 0.03 : 0.1;
     for (const Vec3f& p : mesh.positions)
       ASSERT_NEAR(length(vecCast<double>(p) - Vec3d{0.3, -0.2, 0.1}), 20 + iso, tolerance) << iso;
@@ -250,9 +252,11 @@ TEST_F(GridSourceTest, TransformsReachTheMesh) {
     // Normals are those of the transformed sphere: the inverse transpose of the map applied to the radius.
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vec3f p = mesh.positions[i];
-      const openvdb::Vec3d x = grid->transform().worldToIndex(openvdb::Vec3d(p.x, p.y, p.z)) - openvdb::Vec3d(0.3, -0.2, 0.1);
+      const openvdb::Vec3d x =
+          grid->transform().worldToIndex(openvdb::Vec3d(p.x, p.y, p.z)) - openvdb::Vec3d(0.3, -0.2, 0.1);
       const openvdb::Vec3d n = grid->transform().baseMap()->applyIJT(x).unit();
-      EXPECT_GT(n.dot(openvdb::Vec3d(mesh.normals[i].x, mesh.normals[i].y, mesh.normals[i].z)), std::cos(2.0 * kPi / 180));
+      EXPECT_GT(n.dot(openvdb::Vec3d(mesh.normals[i].x, mesh.normals[i].y, mesh.normals[i].z)),
+                std::cos(2.0 * kPi / 180));
     }
   }
 }
@@ -266,7 +270,8 @@ TEST_F(GridSourceTest, AMirroredGridGivesTheMirroredMesh) {
   const Mesh mirrored = contour(GridSource(grid));
   ASSERT_EQ(mirrored.positions.size(), plain.positions.size());
   for (std::size_t i = 0; i < plain.positions.size(); ++i)
-    ASSERT_LT(length(mirrored.positions[i] - Vec3f{-plain.positions[i].x, plain.positions[i].y, plain.positions[i].z}), 1e-5F);
+    ASSERT_LT(length(mirrored.positions[i] - Vec3f{-plain.positions[i].x, plain.positions[i].y, plain.positions[i].z}),
+              1e-5F);
 }
 
 TEST_F(GridSourceTest, FrustumsAreFollowed) {
@@ -303,7 +308,8 @@ TEST_F(GridSourceTest, NonFiniteVoxelsAreNamedOrAccepted) {
     (void)contour(GridSource(grid));
     FAIL() << "accepted";
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("3 voxels are not finite, the first at (-10, 0, 0) is -inf"), std::string::npos)
+    EXPECT_NE(std::string(e.what()).find("3 voxels are not finite, the first at (-10, 0, 0) is -inf"),
+              std::string::npos)
         << e.what();
   }
   const Mesh mesh = contour(GridSource(grid, {.acceptNonFinite = true}));
@@ -330,7 +336,8 @@ TEST_F(GridSourceTest, NothingInNothingOut) {
 
 TEST_F(GridSourceTest, ValuesOnTheIsovalueAreOutside) {
   // A plateau of exact zeros around one negative voxel.
-  const auto grid = cubeGrid<FloatGrid>(-4, 4, 1.0F, [](int x, int y, int z) { return x == 0 && y == 0 && z == 0 ? -1.0F : 0.0F; });
+  const auto grid =
+      cubeGrid<FloatGrid>(-4, 4, 1.0F, [](int x, int y, int z) { return x == 0 && y == 0 && z == 0 ? -1.0F : 0.0F; });
   const MeshReport r = reportOf(grid);
   expectClosedSolid(r, 2);
   EXPECT_EQ(r.quads, 6u);

@@ -1,9 +1,9 @@
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "pdc/extract/contour.h"
 #include "pdc/field/operators.h"
@@ -19,9 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Row {
   double sigma;
-  double vertexRms;    ///< Vertices to the true surface, voxels.
-  double creaseRms;    ///< Points of the true crease to the nearest vertex-pair edge of the mesh, voxels.
-  double outOfCell;    ///< Share of vertices whose minimiser left the cell.
+  double vertexRms;  ///< Vertices to the true surface, voxels.
+  double creaseRms;  ///< Points of the true crease to the nearest vertex-pair edge of the mesh, voxels.
+  double outOfCell;  ///< Share of vertices whose minimiser left the cell.
 };
 
 class NoiseSweep : public testing::Test {
@@ -53,7 +53,9 @@ std::vector<Vec3d> creasePoints(const Scene& scene) {
     return center + Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)} * r;
   };
   // Just within the cut the scene is outside; just beyond it the scene is the noise alone.
-  const auto noise = [&](double theta, double phi) { return scene.field->valueAt(at(theta, phi, radius * (1 + 1e-9))); };
+  const auto noise = [&](double theta, double phi) {
+    return scene.field->valueAt(at(theta, phi, radius * (1 + 1e-9)));
+  };
   for (int m = 0; m < kMeridians; ++m) {
     const double phi = 2 * 3.14159265358979 * m / kMeridians;
     for (int k = 0; k < kSteps; ++k) {
@@ -105,7 +107,8 @@ TEST_F(NoiseSweep, GoesTheWayThePaperSays) {
                     static_cast<double>(report.outOfCell) / static_cast<double>(m.positions.size())});
   }
   std::printf("%8s %22s %18s %12s\n", "sigma_n", "vertex RMS (voxel)", "crease RMS (voxel)", "out of cell");
-  for (const Row& r : rows) std::printf("%8g %22.5f %18.5f %11.3f%%\n", r.sigma, r.vertexRms, r.creaseRms, 100 * r.outOfCell);
+  for (const Row& r : rows)
+    std::printf("%8g %22.5f %18.5f %11.3f%%\n", r.sigma, r.vertexRms, r.creaseRms, 100 * r.outOfCell);
   // "The best of the two worlds" in between: less spiky than the classical quadric, sharper than the mass point.
   const Row &none = rows[0], &low = rows[1], &medium = rows[2], &all = rows[3];
   for (const Row& between : {low, medium}) {

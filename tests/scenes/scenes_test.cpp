@@ -1,8 +1,8 @@
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "pdc/extract/contour.h"
 #include "pdc/io/scene_reader.h"
@@ -29,7 +29,8 @@ TEST_P(SceneTest, GivesTheAnswersItStates) {
   const FieldSource source(scene.field, {.box = scene.box, .voxelSize = scene.voxelSize, .iso = scene.iso});
   for (const Placement placement : {Placement::kCell, Placement::kFree}) {
     ContourReport counts;
-    const Mesh mesh = contour(source, {.sigmaNormal = scene.sigmaNormal.value_or(0.05), .placement = placement}, &counts);
+    const Mesh mesh =
+        contour(source, {.sigmaNormal = scene.sigmaNormal.value_or(0.05), .placement = placement}, &counts);
     const MeshReport r = analyze(mesh);
     EXPECT_GT(r.quads, 0u);
     EXPECT_EQ(r.boundaryEdges, 0u);

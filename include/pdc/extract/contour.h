@@ -14,8 +14,9 @@ enum class Placement {
 };
 
 struct ContourOptions {
-  /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric with a
-  /// pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's experiments.
+  /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric
+  /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
+  /// experiments.
   double sigmaNormal = 0.05;
   Placement placement = Placement::kCell;
   bool triangles = false;  ///< Triangles instead of quads.
@@ -25,25 +26,25 @@ struct ContourOptions {
 
 /// Counts of one contour() call; no verdicts.
 struct ContourReport {
-  std::size_t blocks = 0;              ///< Blocks that hold surface.
-  std::size_t crossings = 0;           ///< Sign-changing edges with a face.
-  std::size_t outOfCell = 0;           ///< Vertices whose unconstrained minimiser lay outside their cell.
-  std::size_t clamped = 0;             ///< Vertices that were moved to meet the placement's bound.
-  std::size_t boundaryEdges = 0;       ///< Edges of the mesh with one face; 0 unless the source is open.
-  std::size_t multiVertexCells = 0;    ///< Cells with more than one vertex.
+  std::size_t blocks = 0;                  ///< Blocks that hold surface.
+  std::size_t crossings = 0;               ///< Sign-changing edges with a face.
+  std::size_t outOfCell = 0;               ///< Vertices whose unconstrained minimiser lay outside their cell.
+  std::size_t clamped = 0;                 ///< Vertices that were moved to meet the placement's bound.
+  std::size_t boundaryEdges = 0;           ///< Edges of the mesh with one face; 0 unless the source is open.
+  std::size_t multiVertexCells = 0;        ///< Cells with more than one vertex.
   std::size_t crossingsWithoutNormal = 0;  ///< Crossings used as points because no normal was found.
 };
 
-/// Dual contouring with probabilistic plane quadrics (Ju et al. 2002; Trettner & Kobbelt 2020, equations 6-8, section 5.1).
+/// Dual contouring with probabilistic plane quadrics (Ju et al. 2002; Trettner & Kobbelt 2020, equations 6-8,
+/// section 5.1).
 ///
-/// One vertex per surface cycle of a cell; one quad per sign-changing lattice edge whose four cells take part, split along
-/// the diagonal of smaller quadric error.
-/// Guaranteed: every edge has at most two faces, every vertex one fan of faces (a manifold, for any signs); no boundary unless
-/// the source is open; faces counter-clockwise seen from outside; the same bytes for any number of threads.
-/// Not guaranteed: absence of self-intersections.
-/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads; Error if the mesh would have more than
+/// One vertex per surface cycle of a cell; one quad per sign-changing lattice edge whose four cells take part, split
+/// along the diagonal of smaller quadric error. Guaranteed: every edge has at most two faces, every vertex one fan of
+/// faces (a manifold, for any signs); no boundary unless the source is open; faces counter-clockwise seen from outside;
+/// the same bytes for any number of threads. Not guaranteed: absence of self-intersections. \throws
+/// std::invalid_argument for a negative or NaN sigmaNormal or negative threads; Error if the mesh would have more than
 /// 2^32 vertices, before any is made; Cancelled; whatever the source throws.
-[[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {}, ContourReport* report = nullptr,
-                           const Monitor& monitor = {});
+[[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {},
+                           ContourReport* report = nullptr, const Monitor& monitor = {});
 
 }  // namespace pdc

@@ -6,10 +6,10 @@
 
 namespace pdc {
 
-/// Reads .ply, .obj, .off and .stl as a soup: non-manifold, open and degenerate meshes arrive as they stand in the file.
-/// Faces with three corners become triangles, with four quads, larger ones fans of triangles. Vertices of .stl are welded
-/// by exact position. Vertex normals are kept where the file gives one to each vertex.
-/// \throws Error for a missing, empty or damaged file or an unknown suffix.
+/// Reads .ply, .obj, .off and .stl as a soup: non-manifold, open and degenerate meshes arrive as they stand in the
+/// file. Faces with three corners become triangles, with four quads, larger ones fans of triangles. Vertices of .stl
+/// are welded by exact position. Vertex normals are kept where the file gives one to each vertex. \throws Error for a
+/// missing, empty or damaged file or an unknown suffix.
 [[nodiscard]] Mesh readMesh(const std::filesystem::path& path);
 
 }  // namespace pdc

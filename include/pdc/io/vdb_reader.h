@@ -1,21 +1,21 @@
 #pragma once
 
+#include <openvdb/Grid.h>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <openvdb/Grid.h>
-
 namespace pdc {
 
 /// What a .vdb file says about one of its grids, and what its values are.
 struct VdbGridInfo {
-  std::string name;        ///< As readVdbGrid takes it: "name[1]" where grids share a name, "[0]" without one.
-  std::string valueType;   ///< "float", "double", "int32", "int64", "bool", "vec3s", ...
-  std::string gridClass;   ///< "level set", "fog volume", "unknown", "staggered".
-  std::string transform;   ///< "uniform scale", "affine", "frustum", ...
+  std::string name;       ///< As readVdbGrid takes it: "name[1]" where grids share a name, "[0]" without one.
+  std::string valueType;  ///< "float", "double", "int32", "int64", "bool", "vec3s", ...
+  std::string gridClass;  ///< "level set", "fog volume", "unknown", "staggered".
+  std::string transform;  ///< "uniform scale", "affine", "frustum", ...
   bool savedAsHalf = false;
   bool contourable = false;  ///< A scalar type that GridSource takes.
   std::size_t activeVoxels = 0;
@@ -28,8 +28,9 @@ struct VdbGridInfo {
 /// \throws Error for a missing, empty, damaged or non-VDB file.
 [[nodiscard]] std::vector<VdbGridInfo> listVdbGrids(const std::filesystem::path& path);
 
-/// One grid, wholly in memory (no delayed loading). An empty name takes the only contourable grid; if there is none or more
-/// than one the error lists what there is. \throws Error as above, for an unknown name and for a type that cannot be contoured.
+/// One grid, wholly in memory (no delayed loading). An empty name takes the only contourable grid; if there is none or
+/// more than one the error lists what there is. \throws Error as above, for an unknown name and for a type that cannot
+/// be contoured.
 [[nodiscard]] openvdb::GridBase::Ptr readVdbGrid(const std::filesystem::path& path, const std::string& name = "");
 
 }  // namespace pdc

@@ -14,15 +14,15 @@
 namespace pdc {
 
 namespace detail {
-/// Memory for large arrays, in huge pages where the system has them: half of the time of filling fresh memory is the system's
-/// for handing it out page by page.
+/// Memory for large arrays, in huge pages where the system has them: half of the time of filling fresh memory is the
+/// system's for handing it out page by page.
 void* allocateLarge(std::size_t bytes);
 void freeLarge(void* p) noexcept;
 inline constexpr std::size_t kLargeBytes = std::size_t{4} << 20;
 }  // namespace detail
 
-/// An allocator that leaves trivial elements uninitialised on resize, so that large arrays are first touched by the threads
-/// that fill them.
+/// An allocator that leaves trivial elements uninitialised on resize, so that large arrays are first touched by the
+/// threads that fill them.
 template <typename T>
 struct UninitializedAllocator {
   using value_type = T;
@@ -60,8 +60,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// An indexed surface: vertices, and quads or triangles or both.
 ///
-/// Positions are world coordinates. Faces are counter-clockwise seen from outside. A quad (v0, v1, v2, v3) stands for the
-/// triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
+/// Positions are world coordinates. Faces are counter-clockwise seen from outside. A quad (v0, v1, v2, v3) stands for
+/// the triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
 struct Mesh {
   Buffer<Vec3f> positions;
   Buffer<Vec3f> normals;  ///< Empty, or one unit vector per vertex.

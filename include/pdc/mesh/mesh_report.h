@@ -7,8 +7,8 @@
 
 namespace pdc {
 
-/// Plain facts about a mesh taken as a soup of indexed faces. Quads count as one face with four edges for topology and as
-/// their two triangles (see Mesh) for area and volume.
+/// Plain facts about a mesh taken as a soup of indexed faces. Quads count as one face with four edges for topology and
+/// as their two triangles (see Mesh) for area and volume.
 struct MeshReport {
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t edges = 0;
@@ -19,16 +19,16 @@ struct MeshReport {
   std::size_t unusedVertices = 0;       ///< Vertices without a face.
   std::size_t degenerateFaces = 0;      ///< Faces that name a vertex twice.
   std::size_t duplicateFaces = 0;       ///< Faces with the same set of vertices as an earlier one.
-  std::size_t nonFiniteVertices = 0;    ///< Vertices with a NaN or infinite coordinate; left out of area, volume and box.
-  std::size_t components = 0;           ///< Sets of faces connected through shared vertices.
-  long long eulerNumber = 0;            ///< V - E + F, unused vertices left out.
-  double area = 0;                      ///< World units squared.
-  double volume = 0;                    ///< Signed, by the divergence theorem; positive if faces point outwards.
-  Box bounds{};                         ///< Of the used vertices; zero if there are none.
+  std::size_t nonFiniteVertices = 0;  ///< Vertices with a NaN or infinite coordinate; left out of area, volume and box.
+  std::size_t components = 0;         ///< Sets of faces connected through shared vertices.
+  long long eulerNumber = 0;          ///< V - E + F, unused vertices left out.
+  double area = 0;                    ///< World units squared.
+  double volume = 0;                  ///< Signed, by the divergence theorem; positive if faces point outwards.
+  Box bounds{};                       ///< Of the used vertices; zero if there are none.
 };
 
-/// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that does
-/// not exist.
+/// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
+/// does not exist.
 [[nodiscard]] MeshReport analyze(const Mesh& mesh);
 
 }  // namespace pdc

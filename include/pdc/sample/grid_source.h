@@ -1,32 +1,33 @@
 #pragma once
 
+#include <openvdb/Grid.h>
+
 #include <memory>
 #include <optional>
-
-#include <openvdb/Grid.h>
 
 #include "pdc/sample/hermite_source.h"
 
 namespace pdc {
 
 struct GridSourceOptions {
-  /// Isovalue in the grid's own units. Default: 0 for level sets, 0.5 for fog volumes, booleans and unclassified densities.
+  /// Isovalue in the grid's own units. Default: 0 for level sets, 0.5 for fog volumes, booleans and unclassified
+  /// densities.
   std::optional<double> iso{};
   /// false: the tree is a function on all of space, tiles and background included, so the surface is closed.
   /// true: only cells whose eight corners are active take part, so the surface ends where activity ends.
   bool open = false;
-  /// false: NaN and infinite voxels are an error. true: NaN and +inf are outside, -inf is inside (with the grid's sense of
-  /// inside), and none of them is used for a normal.
+  /// false: NaN and infinite voxels are an error. true: NaN and +inf are outside, -inf is inside (with the grid's sense
+  /// of inside), and none of them is used for a normal.
   bool acceptNonFinite = false;
 };
 
 /// A scalar OpenVDB grid (float, double, int32, int64, bool) on its own lattice, read straight from its leaf buffers.
 ///
-/// Inside is value < iso; for fog volumes value > iso; for unclassified grids the side of iso that the background is not on.
-/// Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged over the four
-/// cells at the edge), through the inverse transpose of the transform. Values at or beyond the background of a level set are
-/// treated as clamped: one-sided differences replace central ones there.
-/// The grid must not change while the source lives. \throws Error for other value types, singular or unsupported transforms.
+/// Inside is value < iso; for fog volumes value > iso; for unclassified grids the side of iso that the background is
+/// not on. Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged
+/// over the four cells at the edge), through the inverse transpose of the transform. Values at or beyond the background
+/// of a level set are treated as clamped: one-sided differences replace central ones there. The grid must not change
+/// while the source lives. \throws Error for other value types, singular or unsupported transforms.
 class GridSource final : public HermiteSource {
  public:
   explicit GridSource(openvdb::GridBase::ConstPtr grid, const GridSourceOptions& options = {});

@@ -7,13 +7,13 @@
 
 #include "pdc/math/vec3.h"
 
-/// The seam between inputs and extraction. Space is a lattice of integer points; a *cell* is named by its lowest corner; a
-/// *block* is 8×8×8 cells and is named by its block coordinate, the first cell's coordinate divided by 8. Whoever can fill
-/// BlockSigns and HermiteBlock (an OpenVDB leaf, an implicit function) gets the whole extractor.
+/// The seam between inputs and extraction. Space is a lattice of integer points; a *cell* is named by its lowest
+/// corner; a *block* is 8×8×8 cells and is named by its block coordinate, the first cell's coordinate divided by 8.
+/// Whoever can fill BlockSigns and HermiteBlock (an OpenVDB leaf, an implicit function) gets the whole extractor.
 namespace pdc {
 
-inline constexpr int kBlockSize = 8;                  ///< Cells per block and axis.
-inline constexpr int kBlockPoints = kBlockSize + 1;   ///< Lattice points per block and axis.
+inline constexpr int kBlockSize = 8;                 ///< Cells per block and axis.
+inline constexpr int kBlockPoints = kBlockSize + 1;  ///< Lattice points per block and axis.
 
 /// A lattice point, a cell, or a block coordinate.
 using Coord = std::array<std::int32_t, 3>;
@@ -21,7 +21,8 @@ using Coord = std::array<std::int32_t, 3>;
 /// Number of set bits of each 9-bit row: without a processor's own instruction a table is the quickest way to count.
 inline constexpr auto kBitCount = [] {
   std::array<std::uint8_t, 512> count{};
-  for (unsigned bits = 1; bits < count.size(); ++bits) count[bits] = static_cast<std::uint8_t>(count[bits >> 1] + (bits & 1));
+  for (unsigned bits = 1; bits < count.size(); ++bits)
+    count[bits] = static_cast<std::uint8_t>(count[bits >> 1] + (bits & 1));
   return count;
 }();
 
@@ -68,8 +69,8 @@ struct BlockSigns {
   }
 };
 
-/// The lattice edges of a block that change sign, in a fixed order: axis x, y, z; then by the lower end point, z fastest.
-/// Derived from the signs alone, so that a source and the extractor number crossings alike.
+/// The lattice edges of a block that change sign, in a fixed order: axis x, y, z; then by the lower end point, z
+/// fastest. Derived from the signs alone, so that a source and the extractor number crossings alike.
 class EdgeIndex {
  public:
   /// At most 3 · 8 · 9 · 9 edges.

@@ -14,7 +14,6 @@ struct SurfaceBlocks {
   std::vector<Coord> coords;
   Buffer<BlockSigns> signs;
   bool open = false;  ///< True if some cells may not take part; false promises that all do.
-
 };
 
 /// An input that can be contoured. Immutable; its functions may be called from many threads at once.
@@ -22,10 +21,10 @@ class HermiteSource {
  public:
   virtual ~HermiteSource() = default;
 
-  /// All blocks with a sign change, each once, in an order that does not depend on threads. Signs of points that two blocks
-  /// share agree. Closed under continuation: if points on the face between two blocks differ in sign, both blocks are there
-  /// (unless no cell of the other one takes part).
-  /// Runs in parallel on the calling thread's arena. \throws Cancelled, Error (non-finite input that was not accepted).
+  /// All blocks with a sign change, each once, in an order that does not depend on threads. Signs of points that two
+  /// blocks share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
+  /// blocks are there (unless no cell of the other one takes part). Runs in parallel on the calling thread's arena.
+  /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
 
   /// Fills crossings and normals of one block for the edges of `edges`, which was made from `signs`. Does not allocate.
