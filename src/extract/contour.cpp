@@ -1,8 +1,11 @@
 #include "pdc/extract/contour.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "extract/block_faces.h"
@@ -52,6 +55,10 @@ Mesh contour(const HermiteSource& source, const ContourOptions& options, Contour
              const Monitor& monitor) {
   checkOptions(options);
   if (options.threads == 0) return run(source, options, report, monitor);
+  // More threads than processors have to be allowed first; TBB would warn on standard error otherwise.
+  std::optional<tbb::global_control> allow;
+  if (options.threads > tbb::info::default_concurrency())
+    allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   tbb::task_arena arena(options.threads);
   return arena.execute([&] { return run(source, options, report, monitor); });
 }
