@@ -23,10 +23,8 @@ openvdb::FloatGrid::Ptr sphere(int radius) {
 }
 
 void report(benchmark::State& state, std::size_t vertices) {
-  state.counters["vertices"] = static_cast<double>(vertices);
-  state.counters["ns/vertex"] =
-      benchmark::Counter(static_cast<double>(vertices) * 1e-9,
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_vertex"] = benchmark::Counter(
+      static_cast<double>(vertices), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 /// Arguments: radius in voxels, threads.

@@ -7,7 +7,12 @@ target_compile_options(pdc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
 if(PDC_WERROR)
   target_compile_options(pdc_options INTERFACE -Werror)
 endif()
+
+# Sanitizers look at the library and the program. The tests only link them: instrumented test programs take many times as
+# long to compile and would find faults in the tests.
+add_library(pdc_sanitizers INTERFACE)
 if(PDC_SANITIZE)
-  target_compile_options(pdc_options INTERFACE -fsanitize=${PDC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(pdc_sanitizers INTERFACE
+    -fsanitize=${PDC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pdc_options INTERFACE -fsanitize=${PDC_SANITIZE})
 endif()

@@ -6,8 +6,8 @@
 #include "pdc/math/quadric_lanes.h"
 #include "pdc/math/simd_level.h"
 
-/// Loops over blocks and their lanes, compiled once for every SimdLevel. Bodies are written for one lane, in plain scalars;
-/// `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
+/// Loops over blocks and their lanes, compiled once for every SimdLevel. Bodies are written for one lane, in plain
+/// scalars; `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
 namespace pdc::detail {
 
 /// Calls f(lane) for every lane. Lanes do not see each other: f may read and write any block at its own lane only.

@@ -47,14 +47,14 @@ void sumBlocks(SimdLevel level, std::span<const QuadricLanes<T>> quadrics, Quadr
 template <typename Out>
 void planeQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, std::span<Out> out, SimdLevel level) {
   expectLength(planes.size(), out.size());
-  build(level, out, [planes](std::size_t i, int lane) {
-    return planeQuadric(planes[i].q.get(lane), planes[i].n.get(lane));
-  });
+  build(level, out,
+        [planes](std::size_t i, int lane) { return planeQuadric(planes[i].q.get(lane), planes[i].n.get(lane)); });
 }
 
 template <typename Out>
-void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, typename Out::Scalar sigmaNormal,
-                                typename Out::Scalar sigmaPosition, std::span<Out> out, SimdLevel level) {
+void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes,
+                                typename Out::Scalar sigmaNormal, typename Out::Scalar sigmaPosition,
+                                std::span<Out> out, SimdLevel level) {
   expectLength(planes.size(), out.size());
   build(level, out, [=](std::size_t i, int lane) {
     return probabilisticPlaneQuadric(planes[i].q.get(lane), planes[i].n.get(lane), sigmaNormal, sigmaPosition);
@@ -125,8 +125,8 @@ void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::S
   expectLength(triangles.size(), out.size());
   expectLength(Sigmas.size(), out.size());
   build(level, out, [=](std::size_t i, int lane) {
-    const auto &t = triangles[i];
-    const auto &s = Sigmas[i];
+    const auto& t = triangles[i];
+    const auto& s = Sigmas[i];
     return probabilisticTriangleQuadric(t.p.get(lane), t.q.get(lane), t.r.get(lane), s.p.get(lane), s.q.get(lane),
                                         s.r.get(lane));
   });
@@ -155,44 +155,50 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
   detail::forEachBlock(level, systems.size(), [=](std::size_t i) {
     const Lanes& block = systems[i];
     SolutionLanes<T>& solution = solutions[i];
-    // Two loops, for compilers that would put the selection into branches and then not vectorise.
+    // Two loops with scalars of one size: compilers put the selection into branches, or stumble over the bytes,
+    // otherwise.
+    T keep[kLanes];
     detail::forEachLane([&](int lane) {
       Vec3<T> x;
-      solution.solved[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x);
+      keep[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x) ? T(1) : T(0);
       solution.x.set(lane, x);
     });
     detail::forEachLane([&](int lane) {
-      const bool solved = solution.solved[lane] != 0;
+      const bool solved = keep[lane] != 0;
       const Vec3<T> x = solution.x.get(lane);
       solution.x.set(lane, {solved ? x.x : T(0), solved ? x.y : T(0), solved ? x.z : T(0)});
+      solution.solved[lane] = solved;
     });
   });
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types.
+
 // The batches for one scalar and one kind of output.
-#define PDC_INSTANTIATE_FOR_OUT(T, Out)                                                                               \
-  template void planeQuadrics(std::span<const PlaneLanes<T>>, std::span<Out<T>>, SimdLevel);                           \
-  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, T, T, std::span<Out<T>>, SimdLevel);        \
-  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,           \
-                                           std::span<Out<T>>, SimdLevel);                                              \
-  template void triangleQuadrics(std::span<const TriangleLanes<T>>, std::span<Out<T>>, SimdLevel);                     \
-  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, T, std::span<Out<T>>, SimdLevel);     \
-  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, std::span<const Vec3Lanes<T>>,        \
-                                              std::span<Out<T>>, SimdLevel);                                           \
-  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>,                                       \
-                                              std::span<const TriangleCovarianceLanes<T>>, std::span<Out<T>>,          \
-                                              SimdLevel);                                                              \
-  template void addQuadrics(std::span<const Out<T>>, std::span<Out<T>>, SimdLevel);                                    \
+#define PDC_INSTANTIATE_FOR_OUT(T, Out)                                                                              \
+  template void planeQuadrics(std::span<const PlaneLanes<T>>, std::span<Out<T>>, SimdLevel);                         \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, T, T, std::span<Out<T>>, SimdLevel);      \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,         \
+                                           std::span<Out<T>>, SimdLevel);                                            \
+  template void triangleQuadrics(std::span<const TriangleLanes<T>>, std::span<Out<T>>, SimdLevel);                   \
+  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, T, std::span<Out<T>>, SimdLevel);   \
+  template void probabilisticTriangleQuadrics(std::span<const TriangleLanes<T>>, std::span<const Vec3Lanes<T>>,      \
+                                              std::span<Out<T>>, SimdLevel);                                         \
+  template void probabilisticTriangleQuadrics(                                                                       \
+      std::span<const TriangleLanes<T>>, std::span<const TriangleCovarianceLanes<T>>, std::span<Out<T>>, SimdLevel); \
+  template void addQuadrics(std::span<const Out<T>>, std::span<Out<T>>, SimdLevel);                                  \
   template void solveLdlt(std::span<const Out<T>>, std::span<SolutionLanes<T>>, SimdLevel);
 
-#define PDC_INSTANTIATE(T)                                                                                         \
-  PDC_INSTANTIATE_FOR_OUT(T, QuadricLanes)                                                                         \
-  PDC_INSTANTIATE_FOR_OUT(T, NormalEquationsLanes)                                                                 \
-  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,       \
+#define PDC_INSTANTIATE(T)                                                                                           \
+  PDC_INSTANTIATE_FOR_OUT(T, QuadricLanes)                                                                           \
+  PDC_INSTANTIATE_FOR_OUT(T, NormalEquationsLanes)                                                                   \
+  template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, std::span<const SymMat3Lanes<T>>,         \
                                            std::span<const SymMat3Lanes<T>>, std::span<QuadricLanes<T>>, SimdLevel); \
   template Quadric<T> sumQuadrics(std::span<const QuadricLanes<T>>, SimdLevel);
 
 PDC_INSTANTIATE(float)
 PDC_INSTANTIATE(double)
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace pdc

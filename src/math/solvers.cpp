@@ -51,34 +51,39 @@ struct Best {
   }
 };
 
+/// The coordinate of the box's wall that v is beyond.
+double wall(const Box& box, int axis, double v) { return v < box.lo[axis] ? box.lo[axis] : box.hi[axis]; }
+
+bool within(const Box& box, int axis, double v) { return box.lo[axis] <= v && v <= box.hi[axis]; }
+
 /// Minimises along axis `free`, the other two coordinates of x being fixed.
-void minimizeOnEdge(Best& best, Vec3d x, int free, double h) {
+void minimizeOnEdge(Best& best, Vec3d x, int free, const Box& box) {
   const int i = (free + 1) % 3, j = (free + 2) % 3;
   const double r = best.b[free] - best.A(free, i) * x[i] - best.A(free, j) * x[j];
-  x[free] = std::clamp(r / best.A(free, free), -h, h);
+  x[free] = std::clamp(r / best.A(free, free), box.lo[free], box.hi[free]);
   best.offer(x);
 }
 
 /// Minimises over the face where coordinate `fixed` of x is given.
-void minimizeOnFace(Best& best, Vec3d x, int fixed, double h) {
+void minimizeOnFace(Best& best, Vec3d x, int fixed, const Box& box) {
   const int j = (fixed + 1) % 3, k = (fixed + 2) % 3;
   const SymMat3<double>& A = best.A;
   const double rj = best.b[j] - A(j, fixed) * x[fixed], rk = best.b[k] - A(k, fixed) * x[fixed];
   const double det = A(j, j) * A(k, k) - A(j, k) * A(j, k);
   x[j] = (A(k, k) * rj - A(j, k) * rk) / det;
   x[k] = (A(j, j) * rk - A(j, k) * rj) / det;
-  // As in the cube: where the free minimiser of the face is outside, one of the sides it violates is active.
-  const bool outJ = !(std::abs(x[j]) <= h), outK = !(std::abs(x[k]) <= h);
+  // As in the box: where the free minimiser of the face is outside, one of the sides it violates is active.
+  const bool outJ = !within(box, j, x[j]), outK = !within(box, k, x[k]);
   if (!outJ && !outK) return best.offer(x);
   if (outJ) {
     Vec3d y = x;
-    y[j] = std::copysign(h, x[j]);
-    minimizeOnEdge(best, y, k, h);
+    y[j] = wall(box, j, x[j]);
+    minimizeOnEdge(best, y, k, box);
   }
   if (outK) {
     Vec3d y = x;
-    y[k] = std::copysign(h, x[k]);
-    minimizeOnEdge(best, y, j, h);
+    y[k] = wall(box, k, x[k]);
+    minimizeOnEdge(best, y, j, box);
   }
 }
 
@@ -121,19 +126,28 @@ Vec3d solvePseudoInverse(const SymMat3<double>& A, const Vec3d& b, double relati
   return x;
 }
 
-Vec3d minimizeInCube(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, double halfSize) {
-  // On the way from the constrained to the free minimiser the convex f falls all along, so some face that is active at the
-  // former is violated by the latter: only the violated faces need a look.
+Vec3d minimizeNear(const Quadric<double>& f, const Vec3d& reference, double relativeCutoff, int* rank) {
+  return reference + solvePseudoInverse(f.A, f.b - f.A * reference, relativeCutoff, rank);
+}
+
+Vec3d minimizeInBox(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, const Box& box) {
+  // On the way from the constrained to the free minimiser the convex f falls all along, so some face that is active at
+  // the former is violated by the latter: only the violated faces need a look.
   Best best{A, b};
   bool outside = false;
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(free[axis]) <= halfSize) continue;
+    if (within(box, axis, free[axis])) continue;
     outside = true;
     Vec3d x{};
-    x[axis] = std::copysign(halfSize, free[axis]);
-    minimizeOnFace(best, x, axis, halfSize);
+    x[axis] = wall(box, axis, free[axis]);
+    minimizeOnFace(best, x, axis, box);
   }
   return outside ? best.x : free;
+}
+
+Vec3d minimizeInCube(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, double halfSize) {
+  const Vec3d h{halfSize, halfSize, halfSize};
+  return minimizeInBox(A, b, free, {-h, h});
 }
 
 }  // namespace pdc

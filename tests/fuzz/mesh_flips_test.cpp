@@ -42,6 +42,7 @@ TEST(MeshFlips, DamagedFilesGiveAMeshOrAnError) {
   constexpr std::size_t kAttempts = 3000, kPerChild = 500;
   const ForkedResult result = runForked(kAttempts, kPerChild, [&](std::size_t i) {
     const auto path = folder / ("damaged" + std::string(kNames[i % kNames.size()]));
+    std::filesystem::remove(path);  // file systems flush a file that is overwritten
     writeContents(path, mutate(files[i % kNames.size()], static_cast<std::uint32_t>(i)));
     const Mesh mesh = readMesh(path);
     try {

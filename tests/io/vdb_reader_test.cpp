@@ -3,19 +3,16 @@
 #include <gtest/gtest.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/temporary_folder.h"
-#include "pdc/error.h"
+#include "io/vdb_files.h"
 
 namespace pdc {
 namespace {
@@ -26,51 +23,7 @@ namespace fs = std::filesystem;
 using OddTree = openvdb::tree::Tree4<float, 4, 3, 3>::Type;
 using OddGrid = openvdb::Grid<OddTree>;
 
-class VdbReader : public testing::Test {
- protected:
-  void SetUp() override { openvdb::initialize(); }
-
-  [[nodiscard]] fs::path write(const openvdb::GridCPtrVec& grids,
-                               std::uint32_t compression = openvdb::io::Archive::DEFAULT_COMPRESSION_FLAGS) const {
-    const fs::path path = mFolder / "a.vdb";
-    openvdb::io::File file(path.string());
-    file.setCompression(compression);
-    file.write(grids);
-    return path;
-  }
-
-  TemporaryFolder mFolder;
-};
-
-/// The message of the Error that `action` throws; empty if it throws none.
-template <typename Action>
-std::string errorOf(Action&& action) {
-  try {
-    action();
-    return "";
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos);
-    return message;
-  }
-}
-
-std::string errorOfReading(const fs::path& path, const std::string& name = "") {
-  return errorOf([&] { static_cast<void>(readVdbGrid(path, name)); });
-}
-
-std::string errorOfListing(const fs::path& path) {
-  return errorOf([&] { static_cast<void>(listVdbGrids(path)); });
-}
-
-constexpr std::uint32_t kNone = openvdb::io::COMPRESS_NONE, kMask = openvdb::io::COMPRESS_ACTIVE_MASK,
-                        kZip = openvdb::io::COMPRESS_ZIP, kBlosc = openvdb::io::COMPRESS_BLOSC;
-
-openvdb::FloatGrid::Ptr sphere() {
-  const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(5.0f, openvdb::Vec3f(1, 2, 3), 0.5f);
-  grid->setName("sphere");
-  return grid;
-}
+class VdbReader : public VdbFiles {};
 
 /// Values in leaves, in tiles of each level, and two inactive values that are not the background.
 template <typename Grid>
@@ -307,75 +260,6 @@ TEST_F(VdbReader, FilesThatCannotBeReadAreErrors) {
   EXPECT_EQ(errorOfListing(path), path.string() + ": the file is empty");
   writeContents(path, "ply\nformat ascii 1.0\n");
   EXPECT_EQ(errorOfListing(path), path.string() + ": not a VDB file");
-}
-
-/// Damage at places where OpenVDB itself would write past a buffer, allocate without limit or never end.
-class DamagedVdb : public VdbReader {
- protected:
-  /// The bytes of a file with the sphere in it.
-  std::string sphereFile(std::uint32_t compression) { return contentsOf(write({sphere()}, compression)); }
-
-  std::string errorOfBytes(const std::string& bytes) {
-    const fs::path path = mFolder / "damaged.vdb";
-    writeContents(path, bytes);
-    const std::string listed = errorOfListing(path);
-    EXPECT_EQ(errorOfReading(path), listed);
-    return listed;
-  }
-
-  template <typename Number>
-  static void put(std::string& bytes, std::size_t at, Number number) {
-    std::memcpy(bytes.data() + at, &number, sizeof(number));
-  }
-
-  // Header: magic, version, library version, offsets flag, uuid; no metadata; one grid. Then the descriptor.
-  static constexpr std::size_t kVersionAt = 8, kMetadataAt = 21 + 36, kGridsAt = kMetadataAt + 4,
-                               kNameAt = kGridsAt + 4;
-};
-
-TEST_F(DamagedVdb, UndamagedFileIsRead) { EXPECT_EQ(errorOfBytes(sphereFile(kNone)), ""); }
-
-TEST_F(DamagedVdb, VersionsThatAreTooOldOrTooNew) {
-  for (const std::uint32_t version : {0u, 221u, 225u, 0xffffffffu}) {
-    std::string bytes = sphereFile(kNone);
-    put(bytes, kVersionAt, version);
-    EXPECT_NE(errorOfBytes(bytes).find("VDB file version " + std::to_string(version)), std::string::npos);
-  }
-}
-
-TEST_F(DamagedVdb, CountsAndLengthsThatLie) {
-  for (const std::size_t at : {kMetadataAt, kGridsAt, kNameAt}) {
-    std::string bytes = sphereFile(kNone);
-    put(bytes, at, std::uint32_t{0x7fffffff});
-    EXPECT_NE(errorOfBytes(bytes), "") << at;
-  }
-}
-
-TEST_F(DamagedVdb, BlocksOfValuesThatAreLargerThanTheirNode) {
-  for (const std::uint32_t compression : {kZip, kBlosc}) {
-    const auto grid = sphere();
-    grid->setGridClass(openvdb::GRID_UNKNOWN);  // level sets are not zipped
-    const std::string good = contentsOf(write({grid}, compression));
-    std::int64_t gridAt, blockAt;
-    const std::size_t offsetsAt = kNameAt + 4 + 6 + 4 + std::strlen("Tree_float_5_4_3") + 4;
-    std::memcpy(&gridAt, good.data() + offsetsAt, sizeof(gridAt));
-    std::memcpy(&blockAt, good.data() + offsetsAt + 8, sizeof(blockAt));
-    // The first leaf: its mask, the kind of its values, and the size of the block.
-    const auto sizeAt = static_cast<std::size_t>(blockAt) + 64 + 1;
-    for (const std::int64_t size : {std::int64_t{-100000}, std::int64_t{-2047}, std::int64_t{0}, std::int64_t{1} << 40,
-                                    std::numeric_limits<std::int64_t>::min()}) {
-      std::string bytes = good;
-      put(bytes, sizeAt, size);
-      EXPECT_NE(errorOfBytes(bytes), "") << size;
-    }
-  }
-}
-
-TEST_F(DamagedVdb, EveryTruncationIsAnError) {
-  const std::string good = sphereFile(kNone);
-  for (std::size_t size = 1; size < good.size(); size += 1 + size / 4)
-    EXPECT_NE(errorOfBytes(good.substr(0, size)), "") << size;
-  EXPECT_NE(errorOfBytes(good.substr(0, good.size() - 1)), "");
 }
 
 struct RealGrid {

@@ -1,31 +1,20 @@
 #include "pdc/math/quadric.h"
 
-#include <cmath>
-#include <random>
-
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "math/quadric_checks.h"
+#include "math/random_geometry.h"
 #include "pdc/math/solvers.h"
 
 namespace pdc {
 namespace {
 
-class Random {
- public:
-  explicit Random(unsigned seed) : mEngine(seed) {}
-  Vec3d point() { return {mNormal(mEngine), mNormal(mEngine), mNormal(mEngine)}; }
-  Vec3d direction() {
-    const Vec3d v = point();
-    return v * (1 / length(v));
-  }
-
- private:
-  std::mt19937_64 mEngine;
-  std::normal_distribution<double> mNormal;
-};
+using Sym = SymMat3<double>;
 
 TEST(Quadric, PlaneMeasuresSquaredDistance) {
-  Random random(1);
+  RandomGeometry random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vec3d q = random.point(), n = random.direction(), x = random.point();
     EXPECT_NEAR(planeQuadric(q, n)(x), std::pow(dot(n, x - q), 2), 1e-13);
@@ -34,15 +23,70 @@ TEST(Quadric, PlaneMeasuresSquaredDistance) {
 }
 
 TEST(Quadric, SumsMeasureSumsOfErrors) {
-  Random random(2);
+  RandomGeometry random(2);
   const auto p = planeQuadric(random.point(), random.direction()), q = pointQuadric(random.point());
   const Vec3d x = random.point();
   EXPECT_NEAR((p + q)(x), p(x) + q(x), 1e-13);
   EXPECT_NEAR((p * 3.0)(x), 3 * p(x), 1e-13);
+  EXPECT_NEAR((p - q)(x), p(x) - q(x), 1e-13);
+  auto f = p;
+  f += q;
+  EXPECT_EQ(f, p + q);
+  f -= q;
+  EXPECT_NEAR(f(x), p(x), 1e-13);
+  f *= 2;
+  EXPECT_NEAR(f(x), 2 * p(x), 1e-13);
+  EXPECT_EQ(2.0 * p, p * 2.0);
+}
+
+TEST(Quadric, NormalEquationsAddLikeQuadrics) {
+  RandomGeometry random(8);
+  const auto p = planeQuadric(random.point(), random.direction()), q = pointQuadric(random.point());
+  auto sum = NormalEquations<double>::zero();
+  sum += p.normalEquations();
+  sum += q.normalEquations();
+  EXPECT_EQ(sum.A, (p + q).A);
+  EXPECT_EQ(sum.b, (p + q).b);
+}
+
+TEST(Quadric, RelativeToAnotherOriginIsTheSameFunction) {
+  RandomGeometry random(9);
+  for (int i = 0; i < 1000; ++i) {
+    const auto f = probabilisticPlaneQuadric(random.point(), random.direction(), 0.3);
+    const Vec3d origin = random.point(), y = random.point();
+    EXPECT_NEAR(f.relativeTo(origin)(y), f(y + origin), 1e-12 * (1 + f(y + origin)));
+    const Mat3d M = random.matrix();
+    EXPECT_NEAR(f.pullback(M, origin)(y), f(M * y + origin), 1e-11 * (1 + f(M * y + origin)));
+  }
+}
+
+TEST(Quadric, PlanesMoveWithTheirPoints) {
+  RandomGeometry random(10);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d q = random.point(), n = random.direction(), t = random.point(), x = random.point();
+    const Sym Sigma_n = random.covariance(0.3), Sigma_q = random.covariance(0.3);
+    const auto f = probabilisticPlaneQuadric(q, n, Sigma_n, Sigma_q);
+    // Normals go by the inverse transpose.
+    const Mat3d M = random.matrix(), K = inverse(M), N = K.transposed();
+    const auto g =
+        probabilisticPlaneQuadric(M * q + t, N * n, congruence(Sigma_n, K), congruence(Sigma_q, M.transposed()));
+    EXPECT_NEAR(g(M * x + t), f(x), 1e-9 * (1 + f(x)) * (1 + g.A.trace()));
+    EXPECT_NEAR(f.pullback(K, -(K * t))(M * x + t), f(x), 1e-9 * (1 + f(x)) * (1 + g.A.trace()));
+  }
+}
+
+TEST(Quadric, PlanesScaleWithTheUnitOfLength) {
+  RandomGeometry random(11);
+  const Vec3d q = random.point(), n = random.direction();
+  const double L = 0x1p10;
+  const auto f = probabilisticPlaneQuadric(q, n, 0.1, 0.2), g = probabilisticPlaneQuadric(q * L, n, 0.1, 0.2 * L);
+  EXPECT_EQ(g.A, f.A);
+  EXPECT_EQ(g.b, f.b * L);
+  EXPECT_EQ(g.c, f.c * (L * L));
 }
 
 TEST(Quadric, HalfGradientIsHalfTheSlope) {
-  Random random(3);
+  RandomGeometry random(3);
   const auto q = planeQuadric(random.point(), random.direction()) + pointQuadric(random.point());
   const Vec3d x = random.point(), d = random.direction();
   const double h = 1e-5;
@@ -50,38 +94,63 @@ TEST(Quadric, HalfGradientIsHalfTheSlope) {
 }
 
 TEST(Quadric, WithoutNoiseTheProbabilisticPlaneIsTheClassicalOne) {
-  Random random(4);
+  RandomGeometry random(4);
   const Vec3d q = random.point(), n = random.direction();
   const auto a = probabilisticPlaneQuadric(q, n, 0.0), b = planeQuadric(q, n);
-  EXPECT_EQ(a.A, b.A);
-  EXPECT_EQ(a.b, b.b);
-  EXPECT_EQ(a.c, b.c);
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(probabilisticPlaneQuadric(q, n, Sym::zero(), Sym::zero()), b);
 }
 
 TEST(Quadric, TheProbabilisticPlaneIsTheExpectedPlane) {
-  std::mt19937_64 engine(5);
-  std::normal_distribution<double> normal;
+  RandomGeometry random(5);
   const Vec3d q{0.3, -0.2, 0.5}, n{0.6, 0, 0.8};
-  // Σn = LLᵀ with L lower triangular.
-  const Mat3d L{{Vec3d{0.3, 0, 0}, Vec3d{0.1, 0.2, 0}, Vec3d{-0.05, 0.07, 0.15}}};
-  const Mat3d S = L * L.transposed();
-  const SymMat3<double> Sigma_n{S.row[0].x, S.row[0].y, S.row[0].z, S.row[1].y, S.row[1].z, S.row[2].z};
-  constexpr int kSamples = 2'000'000;
-  auto mean = Quadric<double>::zero();
-  for (int i = 0; i < kSamples; ++i)
-    mean += planeQuadric(q, n + L * Vec3d{normal(engine), normal(engine), normal(engine)});
-  mean = mean * (1.0 / kSamples);
-  const auto expected = probabilisticPlaneQuadric(q, n, Sigma_n);
-  constexpr double kTolerance = 2e-3;  // About five standard errors.
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) EXPECT_NEAR(mean.A(i, j), expected.A(i, j), kTolerance);
-    EXPECT_NEAR(mean.b[i], expected.b[i], kTolerance);
+  const Mat3d N = random.covarianceRoot(0.2), Q = random.covarianceRoot(0.2);
+  const auto sampled =
+      sampleExpectedQuadric(1'000'000, [&] { return planeQuadric(q + Q * random.point(), n + N * random.point()); });
+  expectIsTheMean(sampled, probabilisticPlaneQuadric(q, n, random.covarianceOf(N), random.covarianceOf(Q)), 2e-3);
+}
+
+TEST(Quadric, TheIsotropicPlaneIsTheExpectedPlane) {
+  RandomGeometry random(12);
+  const Vec3d q{0.3, -0.2, 0.5}, n{0.6, 0, 0.8};
+  const double sigmaNormal = 0.2, sigmaPosition = 0.3;
+  const auto sampled = sampleExpectedQuadric(
+      1'000'000, [&] { return planeQuadric(q + random.point() * sigmaPosition, n + random.point() * sigmaNormal); });
+  const auto expected = probabilisticPlaneQuadric(q, n, sigmaNormal, sigmaPosition);
+  expectIsTheMean(sampled, expected, 2e-3);
+  const auto full = probabilisticPlaneQuadric(q, n, Sym::identity() * 0.04, Sym::identity() * 0.09);
+  EXPECT_LT(largestDifference(full, expected), 1e-15);
+}
+
+TEST(Quadric, TheTangentialPlaneIsTheExpectedPlane) {
+  RandomGeometry random(13);
+  const Vec3d q{0.3, -0.2, 0.5}, n{0.6, 0, 0.8};
+  const double sigma = 0.2;
+  const auto sampled = sampleExpectedQuadric(1'000'000, [&] {
+    const Vec3d d = random.point() * sigma;
+    return planeQuadric(q, n + (d - n * dot(n, d)));
+  });
+  const auto expected = probabilisticPlaneQuadric(q, n, tangentialCovariance(n, sigma));
+  expectIsTheMean(sampled, expected, 2e-3);
+  EXPECT_NEAR(quadraticForm(expected.A, n), 1, 1e-15) << "nothing is added along the normal";
+  EXPECT_TRUE(solveLdlt(expected.A, expected.b));
+}
+
+TEST(Quadric, NoiseOfThePositionsMovesNoMinimiser) {
+  RandomGeometry random(14);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3d q = random.point(), n = random.direction();
+    const Sym Sigma_n = random.covariance(0.2), Sigma_q = random.covariance(1);
+    const auto f = probabilisticPlaneQuadric(q, n, Sigma_n), g = probabilisticPlaneQuadric(q, n, Sigma_n, Sigma_q);
+    EXPECT_EQ(f.A, g.A);
+    EXPECT_EQ(f.b, g.b);
+    // The floor of the constant: what is left at q itself.
+    EXPECT_NEAR(g(q), quadraticForm(Sigma_q, n) + traceOfProduct(Sigma_n, Sigma_q), 1e-12 * (1 + g.c));
   }
-  EXPECT_NEAR(mean.c, expected.c, kTolerance);
 }
 
 TEST(Quadric, TheMinimiserBeatsRandomPoints) {
-  Random random(6);
+  RandomGeometry random(6);
   auto q = Quadric<double>::zero();
   for (int i = 0; i < 5; ++i) q += probabilisticPlaneQuadric(random.point(), random.direction(), 0.1);
   const auto x = solveLdlt(q.A, q.b);
@@ -90,7 +159,7 @@ TEST(Quadric, TheMinimiserBeatsRandomPoints) {
 }
 
 TEST(Quadric, LargeNoiseLeavesTheCentreOfTheSamples) {
-  Random random(7);
+  RandomGeometry random(7);
   auto q = Quadric<double>::zero();
   Vec3d centre{};
   for (int i = 0; i < 6; ++i) {

@@ -1,11 +1,14 @@
 #include "pdc/math/solvers.h"
 
-#include <cmath>
-#include <random>
-
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "math/random_geometry.h"
 #include "pdc/math/quadric.h"
 
 namespace pdc {
@@ -53,6 +56,74 @@ TEST(SolveLdlt, RejectsWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(solveLdlt(SymMat3<double>{NAN, 0, 0, 1, 0, 1}, Vec3d{1, 0, 0}));
 }
 
+// A quadric from a mesh, det / trace³ = 1e-17, that Cramer's rule gets wrong in the first digit; exact to the digits
+// shown.
+TEST(SolveLdlt, SolvesTheIllConditionedExample) {
+  const SymMat3<double> A{0x1.d7da867b5f161p-19, -0x1.f3c6369462192p-19, 0x1.03c58cb3bd406p-19,
+                          0x1.08ac6c93b8ae3p-18, -0x1.1324996fe104cp-19, 0x1.1e06cae5e6ca9p-20};
+  const Vec3d b{-0x1.a9eed6624ae8bp-19, 0x1.c322ea6f1c304p-19, -0x1.d4fb474d5e01fp-20};
+  const auto x = solveLdlt(A, b);
+  ASSERT_TRUE(x);
+  EXPECT_NEAR(x->x, -0.27412, 1e-4);
+  EXPECT_NEAR(x->y, 0.27954, 1e-4);
+  EXPECT_NEAR(x->z, -0.60392, 1e-4);
+  const Vec3d residual = A * *x - b;
+  EXPECT_LT(length(residual), 1e-20);
+}
+
+/// A system with eigenvalues 1 … 1/condition in a random frame.
+template <typename T>
+SymMat3<T> conditioned(RandomGeometry& random, double condition) {
+  const auto A = congruence(SymMat3<double>{1, 0, 0, std::pow(condition, -random.uniform(0, 1)), 0, 1 / condition},
+                            random.rotation());
+  return {static_cast<T>(A.xx), static_cast<T>(A.xy), static_cast<T>(A.xz),
+          static_cast<T>(A.yy), static_cast<T>(A.yz), static_cast<T>(A.zz)};
+}
+
+/// Expects the error within `factor` condition numbers of rounding, against a solution in extended precision.
+template <typename T>
+void expectErrorsNearTheCondition(double factor) {
+  RandomGeometry random(5);
+  const double epsilon = std::numeric_limits<T>::epsilon();
+  for (double condition = 1; condition < 0.1 / epsilon && condition < 2e12; condition *= 10) {
+    for (int i = 0; i < 2000; ++i) {
+      const auto A = conditioned<T>(random, condition);
+      const Vec3<T> b = vecCast<T>(random.point());
+      const SymMat3<long double> exactA{A.xx, A.xy, A.xz, A.yy, A.yz, A.zz};
+      const auto x = solveLdlt(A, b);
+      const auto exact = solveLdlt(exactA, vecCast<long double>(b));
+      ASSERT_TRUE(x && exact) << condition;
+      const auto error = length(vecCast<long double>(*x) - *exact) / length(*exact);
+      EXPECT_LT(error, factor * epsilon * condition) << condition;
+    }
+  }
+}
+
+TEST(SolveLdlt, ErrorsAreThoseOfTheCondition) {
+  expectErrorsNearTheCondition<float>(10);
+  expectErrorsNearTheCondition<double>(10);
+}
+
+TEST(SolveLdlt, DoesNotTakeRoundingForAPivot) {
+  RandomGeometry random(6);
+  int rejected = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3f n = vecCast<float>(random.direction());
+    rejected += !solveLdlt(outer(n), n);
+  }
+  EXPECT_EQ(rejected, 1000);
+}
+
+TEST(SolveLdlt, DoesNotMindTheUnitOfLength) {
+  RandomGeometry random(7);
+  const auto A = conditioned<float>(random, 100);
+  const Vec3f b = vecCast<float>(random.point());
+  const auto x = solveLdlt(A, b);
+  ASSERT_TRUE(x);
+  for (const float scale : {0x1p-80F, 0x1p-10F, 0x1p10F, 0x1p80F})
+    EXPECT_EQ(solveLdlt(A * scale, b * scale), x) << scale;
+}
+
 TEST(EigenSymmetric, AgreesWithEigen) {
   RandomSystem random(2);
   for (int i = 0; i < 10'000; ++i) {
@@ -87,6 +158,35 @@ TEST(SolvePseudoInverse, OfZeroIsZero) {
   int rank = 3;
   EXPECT_EQ(solvePseudoInverse(SymMat3<double>::zero(), Vec3d{1, 2, 3}, 1e-3, &rank), Vec3d{});
   EXPECT_EQ(rank, 0);
+}
+
+TEST(MinimizeNear, IsTheNearestOfTheMinimisers) {
+  RandomSystem random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d x0 = random.vector(), reference = random.vector();
+    const Vec3d n = random.vector();
+    int rank = 0;
+    const Vec3d x = minimizeNear(planeQuadric(x0, n), reference, 1e-3, &rank);
+    EXPECT_EQ(rank, 1);
+    EXPECT_LT(length(x - (reference - n * (dot(n, reference - x0) / dot(n, n)))), 1e-12);
+  }
+}
+
+TEST(MinimizeInBox, AgreesWithProjectedDescent) {
+  RandomSystem random(9);
+  const Box box{{-0.2, 0.1, -1}, {0.3, 0.4, 0.5}};
+  for (int i = 0; i < 500; ++i) {
+    const auto A = random.matrix(3) + SymMat3<double>::identity() * 0.02;
+    const Vec3d b = A * (random.vector() * random.uniform(0.1, 3));
+    const Vec3d x = minimizeInBox(A, b, *solveLdlt(A, b), box);
+    Vec3d y = box.center();
+    const double step = 1 / A.trace();
+    for (int k = 0; k < 20'000; ++k) {
+      y -= (A * y - b) * step;
+      for (int a = 0; a < 3; ++a) y[a] = std::clamp(y[a], box.lo[a], box.hi[a]);
+    }
+    EXPECT_LT(length(x - y), 1e-6) << i;
+  }
 }
 
 // Projected gradient descent knows nothing of faces and edges of the cube, and finds the same point.

@@ -26,9 +26,9 @@ constexpr Quadric<T> entrywise(const Quadric<T>& p, const Quadric<T>& q, const F
 
 }  // namespace detail
 
-/// The mean of `count` quadrics drawn one after the other from `sample()`: an estimate of the expected quadric (equation 16),
-/// whose error falls with the square root of count. Zero for count = 0. Allocates nothing; the same draws give the same bits.
-/// \param sample returns a Quadric<T>; T = double unless the quadrics are few.
+/// The mean of `count` quadrics drawn one after the other from `sample()`: an estimate of the expected quadric
+/// (equation 16), whose error falls with the square root of count. Zero for count = 0. Allocates nothing; the same
+/// draws give the same bits. \param sample returns a Quadric<T>; T = double unless the quadrics are few.
 template <typename Sample>
 auto sampleExpectedQuadric(std::size_t count, Sample&& sample) {
   using Result = decltype(sample());
@@ -42,8 +42,7 @@ auto sampleExpectedQuadric(std::size_t count, Sample&& sample) {
     squares += detail::entrywise(before, x - mean, [](T a, T b) { return a * b; });
   }
   const T scale = count < 2 ? T(0) : 1 / (static_cast<T>(count) * static_cast<T>(count - 1));
-  return SampledQuadric<T>{
-      mean, detail::entrywise(squares, squares, [scale](T a, T) { return std::sqrt(a * scale); })};
+  return SampledQuadric<T>{mean, detail::entrywise(squares, squares, [scale](T a, T) { return std::sqrt(a * scale); })};
 }
 
 }  // namespace pdc

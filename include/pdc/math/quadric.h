@@ -6,7 +6,8 @@
 /// Error quadrics f(x) = xᵀAx − 2bᵀx + c (Trettner & Kobbelt 2020, equation 1), and those of points and planes.
 ///
 /// Coordinates are the caller's, and b and c grow with the distance from their origin: build quadrics in a local frame
-/// (origin near the data, unit its size), where single precision loses nothing. This header needs only the standard library.
+/// (origin near the data, unit its size), where single precision loses nothing. This header needs only the standard
+/// library.
 namespace pdc {
 
 /// The part of a quadric that says where its minimum is, Ax = b, without the constant that says how deep it is.
@@ -81,8 +82,8 @@ constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& 
   return {outer(n) + Sigma_n, n * d + s, d * d + dot(q, s)};
 }
 
-/// The same with the point distributed as N(q, Sigma_q), independent of the normal (equations 6-8). Sigma_q adds nᵀΣq n +
-/// Tr[Σn Σq] to the constant and nothing else: it does not move the minimum.
+/// The same with the point distributed as N(q, Sigma_q), independent of the normal (equations 6-8). Sigma_q adds nᵀΣq n
+/// + Tr[Σn Σq] to the constant and nothing else: it does not move the minimum.
 template <typename T>
 constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& n, const SymMat3<T>& Sigma_n,
                                                const SymMat3<T>& Sigma_q) {

@@ -8,11 +8,11 @@
 /// Many quadrics at once, on one thread: each function is the one-by-one function of the same name (quadric.h,
 /// triangle_quadric.h, solvers.h) in every lane of every block, by the widest vectors the processor has.
 ///
-/// `Out` is QuadricLanes<T>, or NormalEquationsLanes<T> where the constant is not wanted; T is float or double. All spans of a
-/// call have one length; std::invalid_argument if not. The results have the bits of the one-by-one functions compiled without
-/// contraction, at every level. Nothing allocates. Memory soon sets the pace: feed chunks that stay in cache (some hundred
-/// blocks) and use the results up while they are there.
-/// The parameter `level` is for tests and timings; levels above the processor's count as its best.
+/// `Out` is QuadricLanes<T>, or NormalEquationsLanes<T> where the constant is not wanted; T is float or double. All
+/// spans of a call have one length; std::invalid_argument if not. The results have the bits of the one-by-one functions
+/// compiled without contraction, at every level. Nothing allocates. Memory soon sets the pace: feed chunks that stay in
+/// cache (some hundred blocks) and use the results up while they are there. The parameter `level` is for tests and
+/// timings; levels above the processor's count as its best.
 namespace pdc {
 
 /// Equation 4.
@@ -22,8 +22,9 @@ void planeQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, std
 
 /// Equations 6-8, isotropic, with the same standard deviations for all.
 template <typename Out>
-void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes, typename Out::Scalar sigmaNormal,
-                                typename Out::Scalar sigmaPosition, std::span<Out> out, SimdLevel level = bestSimdLevel());
+void probabilisticPlaneQuadrics(std::span<const PlaneLanes<typename Out::Scalar>> planes,
+                                typename Out::Scalar sigmaNormal, typename Out::Scalar sigmaPosition,
+                                std::span<Out> out, SimdLevel level = bestSimdLevel());
 
 /// Equations 6-8 with Σq = 0.
 template <typename Out>
@@ -44,10 +45,11 @@ void triangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> trian
 
 /// Equations 11-15, isotropic, with the same standard deviation for all corners of all triangles.
 template <typename Out>
-void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles, typename Out::Scalar sigma,
-                                   std::span<Out> out, SimdLevel level = bestSimdLevel());
+void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
+                                   typename Out::Scalar sigma, std::span<Out> out, SimdLevel level = bestSimdLevel());
 
-/// Equations 11-15, isotropic, with a standard deviation for each corner: those of (p, q, r) are the (x, y, z) of `sigmas`.
+/// Equations 11-15, isotropic, with a standard deviation for each corner: those of (p, q, r) are the (x, y, z) of
+/// `sigmas`.
 template <typename Out>
 void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
                                    std::span<const Vec3Lanes<typename Out::Scalar>> sigmas, std::span<Out> out,
@@ -56,15 +58,15 @@ void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::S
 /// Equations 11-15.
 template <typename Out>
 void probabilisticTriangleQuadrics(std::span<const TriangleLanes<typename Out::Scalar>> triangles,
-                                   std::span<const TriangleCovarianceLanes<typename Out::Scalar>> Sigmas, std::span<Out> out,
-                                   SimdLevel level = bestSimdLevel());
+                                   std::span<const TriangleCovarianceLanes<typename Out::Scalar>> Sigmas,
+                                   std::span<Out> out, SimdLevel level = bestSimdLevel());
 
 /// to += from.
 template <typename Lanes>
 void addQuadrics(std::span<const Lanes> from, std::span<Lanes> to, SimdLevel level = bestSimdLevel());
 
-/// The sum over all lanes of all blocks, in pairs of halves: its rounding grows with the logarithm of their number. The order
-/// depends on that number alone. Lanes in no use must be zero.
+/// The sum over all lanes of all blocks, in pairs of halves: its rounding grows with the logarithm of their number. The
+/// order depends on that number alone. Lanes in no use must be zero.
 template <typename T>
 [[nodiscard]] Quadric<T> sumQuadrics(std::span<const QuadricLanes<T>> quadrics, SimdLevel level = bestSimdLevel());
 

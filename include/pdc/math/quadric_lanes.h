@@ -4,11 +4,12 @@
 
 #include "pdc/math/quadric.h"
 
-/// Blocks of kLanes values side by side, each scalar an array over the lanes: structures of arrays of the size of a vector
-/// register. Long lists are arrays of blocks, so that one block's scalars share pages and the streams do not multiply.
+/// Blocks of kLanes values side by side, each scalar an array over the lanes: structures of arrays of the size of a
+/// vector register. Long lists are arrays of blocks, so that one block's scalars share pages and the streams do not
+/// multiply.
 ///
-/// A block is a plain aggregate, uninitialised unless made with {}. Batches compute with all of its lanes; what unused ones
-/// hold matters to sums only.
+/// A block is a plain aggregate, uninitialised unless made with {}. Batches compute with all of its lanes; what unused
+/// ones hold matters to sums only.
 namespace pdc {
 
 inline constexpr int kLanes = 16;
@@ -94,8 +95,8 @@ struct QuadricLanes {
 /// Solutions of 3×3 systems.
 template <typename T>
 struct SolutionLanes {
-  Vec3Lanes<T> x;                ///< Zero where there is none.
-  std::uint8_t solved[kLanes];   ///< 1 where the matrix is positive definite to working precision, otherwise 0.
+  Vec3Lanes<T> x;               ///< Zero where there is none.
+  std::uint8_t solved[kLanes];  ///< 1 where the matrix is positive definite to working precision, otherwise 0.
 };
 
 }  // namespace pdc

@@ -16,9 +16,9 @@ struct SolveQuality {
 /// \param relativeCutoff eigenvalues at or below this share of the largest count as zero, as in solvePseudoInverse.
 [[nodiscard]] SolveQuality solveQuality(const SymMat3<double>& A, double relativeCutoff);
 
-/// Covariance of the minimiser of a sum of squared residuals (nᵢᵀx − dᵢ)², A = Σ nᵢnᵢᵀ, whose dᵢ are independent with one
-/// variance: residualVariance A⁻¹ (Gauss-Markov). An unbiased estimate of that variance from m residuals is f(x_min) / (m − 3).
-/// \returns nothing if A is not positive definite to working precision.
+/// Covariance of the minimiser of a sum of squared residuals (nᵢᵀx − dᵢ)², A = Σ nᵢnᵢᵀ, whose dᵢ are independent with
+/// one variance: residualVariance A⁻¹ (Gauss-Markov). An unbiased estimate of that variance from m residuals is
+/// f(x_min) / (m − 3). \returns nothing if A is not positive definite to working precision.
 [[nodiscard]] std::optional<SymMat3<double>> solutionCovariance(const SymMat3<double>& A, double residualVariance);
 
 }  // namespace pdc

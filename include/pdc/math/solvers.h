@@ -18,7 +18,8 @@ namespace detail {
 /// counts as zero. \param[out] x the solution if so, anything if not. Free of branches, for the sake of batches.
 template <typename T>
 constexpr bool ldlt(const SymMat3<T>& A, const Vec3<T>& b, Vec3<T>& x) {
-  constexpr T kEpsilon = std::numeric_limits<T>::epsilon(), kTiny = std::numeric_limits<T>::min();
+  // A pivot is a difference of entries and their products, each rounded: some three epsilons of the diagonal entry.
+  constexpr T kRounding = 4 * std::numeric_limits<T>::epsilon(), kTiny = std::numeric_limits<T>::min();
   const T r0 = 1 / A.xx, l10 = A.xy * r0, l20 = A.xz * r0;
   const T d1 = A.yy - l10 * A.xy, e = A.yz - l20 * A.xy, r1 = 1 / d1, l21 = e * r1;
   const T d2 = A.zz - l20 * A.xz - l21 * e;
@@ -26,14 +27,14 @@ constexpr bool ldlt(const SymMat3<T>& A, const Vec3<T>& b, Vec3<T>& x) {
   x.z = y2 / d2;
   x.y = y1 * r1 - l21 * x.z;
   x.x = b.x * r0 - l10 * x.y - l20 * x.z;
-  return (A.xx > kTiny) & (d1 > kEpsilon * A.yy + kTiny) & (d2 > kEpsilon * A.zz + kTiny);
+  return (A.xx > kTiny) & (d1 > kRounding * A.yy + kTiny) & (d2 > kRounding * A.zz + kTiny);
 }
 
 }  // namespace detail
 
-/// Solves Ax = b by an unrolled LDLᵀ factorisation without pivoting. Uses no fused multiply-add, which only hardware does fast
-/// and which the accuracy does not need.
-/// \returns nothing if A is not positive definite to working precision: if a pivot drowns in the rounding of its diagonal entry.
+/// Solves Ax = b by an unrolled LDLᵀ factorisation without pivoting. Uses no fused multiply-add, which only hardware
+/// does fast and which the accuracy does not need. \returns nothing if A is not positive definite to working precision:
+/// if a pivot drowns in the rounding of its diagonal entry.
 template <typename T>
 constexpr std::optional<Vec3<T>> solveLdlt(const SymMat3<T>& A, const Vec3<T>& b) {
   Vec3<T> x{};
@@ -47,16 +48,19 @@ struct Eigen3 {
   std::array<Vec3d, 3> vector;
 };
 
-/// Eigen-decomposition of a symmetric matrix by cyclic Jacobi rotations; accurate to a few ulp of the largest eigenvalue.
+/// Eigen-decomposition of a symmetric matrix by cyclic Jacobi rotations; accurate to a few ulp of the largest
+/// eigenvalue.
 [[nodiscard]] Eigen3 eigenSymmetric(const SymMat3<double>& A);
 
-/// A⁺b, leaving out eigenvalues at or below `relativeCutoff` times the largest: the shortest of the least-squares solutions
-/// (Lindstrom 2000). Zero for A = 0. `rank`, if given, receives the number of eigenvalues used.
-[[nodiscard]] Vec3d solvePseudoInverse(const SymMat3<double>& A, const Vec3d& b, double relativeCutoff, int* rank = nullptr);
+/// A⁺b, leaving out eigenvalues at or below `relativeCutoff` times the largest: the shortest of the least-squares
+/// solutions (Lindstrom 2000). Zero for A = 0. `rank`, if given, receives the number of eigenvalues used.
+[[nodiscard]] Vec3d solvePseudoInverse(const SymMat3<double>& A, const Vec3d& b, double relativeCutoff,
+                                       int* rank = nullptr);
 
 /// Of the points where f is least, with the eigenvalues cut off as above, the one nearest to `reference`: the way to
 /// minimise classical quadrics, whose minimum is a line or a plane more often than a point.
-[[nodiscard]] Vec3d minimizeNear(const Quadric<double>& f, const Vec3d& reference, double relativeCutoff, int* rank = nullptr);
+[[nodiscard]] Vec3d minimizeNear(const Quadric<double>& f, const Vec3d& reference, double relativeCutoff,
+                                 int* rank = nullptr);
 
 /// The point of `box` that minimises f(x) = xᵀAx − 2bᵀx; exact, not a clamp of the free minimiser.
 /// \param A positive definite.
