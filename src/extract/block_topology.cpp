@@ -170,11 +170,16 @@ class BlockCounter {
   BlockTopology& mOut;
 };
 
+/// The first special cell that is not before `cell`.
+std::vector<SpecialCell>::const_iterator firstSpecialFrom(const std::vector<SpecialCell>& special, int cell) {
+  return std::lower_bound(special.begin(), special.end(), cell,
+                          [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+}
+
 }  // namespace
 
 const SpecialCell* BlockTopology::findSpecial(int cell) const {
-  const auto it = std::lower_bound(special.begin(), special.end(), cell,
-                                   [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+  const auto it = firstSpecialFrom(special, cell);
   return it != special.end() && it->cell == cell ? &*it : nullptr;
 }
 
@@ -183,8 +188,7 @@ std::uint64_t BlockTopology::cellVertex(int x, int y, int z) const {
   std::uint64_t n = firstVertex + cellsBefore[8 * x + y] + kBitCount[row & below];
   if (!special.empty()) {
     const int cell = 64 * x + 8 * y + z;
-    const auto it = std::lower_bound(special.begin(), special.end(), cell,
-                                     [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+    const auto it = firstSpecialFrom(special, cell);
     if (it != special.begin()) n += std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
   }
   return n;
