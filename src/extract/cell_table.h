@@ -40,10 +40,10 @@ constexpr int faceCorner(int f, int i) {
 
 /// kFaceEdge[f][i] joins corners i and i + 1 of the ring.
 inline constexpr auto kFaceEdge = [] {
-  std::array<std::array<std::int8_t, 4>, kFaces> edge{};
+  std::array<std::array<std::uint8_t, 4>, kFaces> edge{};
   for (int f = 0; f < kFaces; ++f)
     for (int i = 0; i < 4; ++i)
-      edge[f][i] = static_cast<std::int8_t>(edgeBetween(faceCorner(f, i), faceCorner(f, i + 1)));
+      edge[f][i] = static_cast<std::uint8_t>(edgeBetween(faceCorner(f, i), faceCorner(f, i + 1)));
   return edge;
 }();
 
@@ -58,7 +58,7 @@ constexpr bool isAmbiguous(int code, int f) {
 }
 
 struct Segment {
-  std::int8_t edge0, edge1, face;
+  std::uint8_t edge0, edge1, face;
 };
 struct Segments {
   std::array<Segment, 12> at{};
@@ -69,14 +69,14 @@ constexpr Segments segments(int code, bool flip) {
   Segments s;
   for (int f = 0; f < kFaces; ++f) {
     const auto& ring = kFaceEdge[f];
-    const auto add = [&](std::int8_t e0, std::int8_t e1) { s.at[s.size++] = {e0, e1, static_cast<std::int8_t>(f)}; };
+    const auto add = [&](std::uint8_t e0, std::uint8_t e1) { s.at[s.size++] = {e0, e1, static_cast<std::uint8_t>(f)}; };
     if (isAmbiguous(code, f)) {
       for (int i = 0; i < 4; ++i)
         if (isInside(code, faceCorner(f, i)) != flip) add(ring[(i + 3) & 3], ring[i]);
     } else {
-      std::array<std::int8_t, 4> crossed{};
+      std::array<std::uint8_t, 4> crossed{};
       int n = 0;
-      for (const std::int8_t e : ring)
+      for (const std::uint8_t e : ring)
         if (changesSign(code, e)) crossed[n++] = e;
       if (n == 2) add(crossed[0], crossed[1]);
     }

@@ -149,7 +149,7 @@ class GridField final : public Field {
 
 }  // namespace
 
-FieldPtr gridField(openvdb::GridBase::ConstPtr grid, double iso, bool insideIsHigher) {
+FieldPtr gridField(const openvdb::GridBase::ConstPtr& grid, double iso, bool insideIsHigher) {
   if (!grid) throw std::invalid_argument("gridField grid must not be null");
   detail::requireFinite("gridField iso", iso);
   if (auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid))

@@ -94,7 +94,7 @@ class FileBuffer final : public std::streambuf {
   std::vector<char> mBytes;
 };
 
-void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, OpenMesh::IO::Options options) {
+void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, const OpenMesh::IO::Options& options) {
   SoupExporter exporter(mesh, split);
   constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (exporter.n_faces() > kMax || exporter.n_vertices() > kMax)

@@ -28,7 +28,7 @@ openvdb::TreeBase::Ptr readTree(const std::filesystem::path& path, VdbFile& file
   setVersion(stream, file);
   openvdb::io::setDataCompression(stream, head.compression);
 
-  const auto grid = openvdb::GridBase::createGrid(entry.type);
+  auto grid = openvdb::GridBase::createGrid(entry.type);
   grid->setSaveFloatAsHalf(head.half);
   grid->readTopology(stream);
   grid->readBuffers(stream);
@@ -73,14 +73,14 @@ openvdb::MetaMap toMetaMap(const std::vector<VdbMetadata>& all) {
 openvdb::math::Transform::Ptr toTransform(const VdbFile& file, const VdbGridHead& head) {
   std::istringstream stream(head.transform);
   setVersion(stream, file);
-  const auto transform = openvdb::math::Transform::createLinearTransform();
+  auto transform = openvdb::math::Transform::createLinearTransform();
   transform->read(stream);
   return transform;
 }
 
 openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, VdbFile& file, const VdbEntry& entry) {
   const VdbGridHead head = file.readHead(entry);
-  const auto grid = openvdb::GridBase::createGrid(entry.type);
+  auto grid = openvdb::GridBase::createGrid(entry.type);
   grid->insertMeta(toMetaMap(head.metadata));
   grid->setSaveFloatAsHalf(head.half);
   grid->setTransform(toTransform(file, head));

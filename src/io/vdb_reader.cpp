@@ -50,7 +50,7 @@ std::string valueType(std::string type) {
 }
 
 std::string transformKind(const openvdb::math::Transform& transform) {
-  const std::string type = transform.mapType();
+  std::string type = transform.mapType();
   if (type == "UniformScaleMap") return "uniform scale";
   if (type == "UniformScaleTranslateMap") return "uniform scale, translation";
   if (type == "ScaleMap") return "scale";

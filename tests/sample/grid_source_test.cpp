@@ -104,8 +104,8 @@ TEST_F(GridSourceTest, EveryValueTypeGivesTheSameSphere) {
 }
 
 TEST_F(GridSourceTest, RefusesVectors) {
-  EXPECT_THROW(GridSource(openvdb::Vec3SGrid::create()), Error);
-  EXPECT_THROW(GridSource(openvdb::GridBase::ConstPtr()), std::invalid_argument);
+  EXPECT_THROW(GridSource{openvdb::Vec3SGrid::create()}, Error);
+  EXPECT_THROW(GridSource{openvdb::GridBase::ConstPtr()}, std::invalid_argument);
 }
 
 TEST_F(GridSourceTest, InsideFollowsTheClass) {

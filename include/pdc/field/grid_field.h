@@ -10,6 +10,6 @@ namespace pdc {
 /// the interpolant's own gradient, through the grid's transform. Bounds come from stored value ranges of blocks of
 /// voxels. Float and double grids with an affine transform; others throw Error. std::invalid_argument for null or an
 /// iso that is not finite. The grid must not change while the field lives.
-FieldPtr gridField(openvdb::GridBase::ConstPtr grid, double iso, bool insideIsHigher);
+FieldPtr gridField(const openvdb::GridBase::ConstPtr& grid, double iso, bool insideIsHigher);
 
 }  // namespace pdc
