@@ -1,10 +1,10 @@
 #include "extract/block_faces.h"
 
-#include <tbb/parallel_for.h>
-
 #include <bit>
+#include <cstring>
 
-#include "extract/block_progress.h"
+#include "extract/float4.h"
+#include "math/lane_loops.h"
 
 namespace pdc::detail {
 namespace {
@@ -13,107 +13,107 @@ namespace {
 /// next axis and the one after.
 constexpr int kRing[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
-/// Centres of those cells from the edge's low end, by axis.
-constexpr auto kRingCenter = [] {
-  std::array<std::array<Vec3f, 4>, 3> center{};
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 4; ++k) {
-      center[axis][k] = {0.5F, 0.5F, 0.5F};
-      center[axis][k][(axis + 1) % 3] -= static_cast<float>(kRing[k][0]);
-      center[axis][k][(axis + 2) % 3] -= static_cast<float>(kRing[k][1]);
-    }
-  return center;
-}();
+Float4 load(const float* p) {
+  Float4 v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
 
-/// A quad in ring order, with its vertices' places relative to the edge's low end.
-struct RingQuad {
-  Quad vertex;
-  std::array<Vec3f, 4> place;
+/// A VertexError, or a sum of some, in three registers.
+struct PackedError {
+  explicit PackedError(const VertexError& e) {
+    static_assert(sizeof e == 12 * sizeof(float));
+    const auto* p = reinterpret_cast<const float*>(&e);
+    v[0] = load(p), v[1] = load(p + 4), v[2] = load(p + 8);
+  }
+  friend PackedError operator+(PackedError a, const PackedError& b) {
+    for (int i = 0; i < 3; ++i) a.v[i] += b.v[i];
+    return a;
+  }
+  friend PackedError operator-(PackedError a, const PackedError& b) {
+    for (int i = 0; i < 3; ++i) a.v[i] -= b.v[i];
+    return a;
+  }
+
+  [[nodiscard]] Vec3f x() const { return {v[0][0], v[0][1], v[0][2]}; }
+  [[nodiscard]] SymMat3<float> A() const { return {v[0][3], v[1][0], v[1][1], v[1][2], v[1][3], v[2][0]}; }
+  [[nodiscard]] Vec3f b() const { return {v[2][1], v[2][2], v[2][3]}; }
+
+  Float4 v[3];
 };
 
-class BlockFaceWriter {
- public:
-  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored,
-                  Quad* quads, Triangle* triangles)
-      : mBlocks(blocks),
-        mTopology(topology),
-        mErrors(errors),
-        mMirrored(mirrored),
-        mQuads(quads),
-        mTriangles(triangles) {}
+template <int i>
+Vec3f column(const SymMat3<float>& A) {
+  if constexpr (i == 0) return {A.xx, A.xy, A.xz};
+  if constexpr (i == 1) return {A.xy, A.yy, A.yz};
+  if constexpr (i == 2) return {A.xz, A.yz, A.zz};
+}
 
-  void run(std::size_t block) const {
-    const BlockTopology& own = mTopology.blocks[block];
-    std::uint64_t face = own.firstQuad;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int x = 0; x < kBlockSize; ++x)
-        for (std::uint64_t w = own.edges[axis].word[x]; w != 0; w &= w - 1) {
-          const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
-          const RingQuad ring = gather(own, axis, {x, y, z});
-          const bool reversed = mBlocks.signs[block].inside(x, y, z) == mMirrored;
-          write(ring.vertex, splitsAtFirst(ring), reversed, face++);
-        }
-  }
-
- private:
-  RingQuad gather(const BlockTopology& own, int axis, const Coord& p) const {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    RingQuad ring;
-    for (int k = 0; k < 4; ++k) {
-      const auto [du, dv] = kRing[k];
-      Coord c = p;
-      c[u] -= du;
-      c[v] -= dv;
-      const int lower = (c[0] < 0) << 2 | (c[1] < 0) << 1 | (c[2] < 0);
-      const BlockTopology& b = lower == 0 ? own : mTopology.blocks[own.lower[lower]];
-      const std::uint64_t vertex = b.vertexAt(c[0] & 7, c[1] & 7, c[2] & 7, 4 * axis + du + 2 * dv);
-      ring.vertex[k] = static_cast<std::uint32_t>(vertex);
-      ring.place[k] = kRingCenter[axis][k] + mErrors[vertex].x;
-    }
-    return ring;
-  }
-
-  /// True for the diagonal from corner 0 to 2, false for 1 to 3.
-  bool splitsAtFirst(const RingQuad& ring) const {
-    const Vec3f m02 = (ring.place[0] + ring.place[2]) * 0.5F, m13 = (ring.place[1] + ring.place[3]) * 0.5F;
-    float e02 = 0, e13 = 0;
-    for (int k = 0; k < 4; ++k) {
-      const VertexError& e = mErrors[ring.vertex[k]];
-      e02 += e.at(m02 - ring.place[k]);
-      e13 += e.at(m13 - ring.place[k]);
-    }
-    return !(e13 < e02);
-  }
-
-  void write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const {
-    const int start = splitsAtFirst ? 0 : 1;
-    Quad q;
-    for (int k = 0; k < 4; ++k) q[k] = v[(start + (reversed ? 4 - k : k)) & 3];
-    if (mQuads != nullptr) {
-      mQuads[face] = q;
-    } else {
-      mTriangles[2 * face] = {q[0], q[1], q[2]};
-      mTriangles[2 * face + 1] = {q[0], q[2], q[3]};
-    }
-  }
-
-  const SurfaceBlocks& mBlocks;
-  const Topology& mTopology;
-  const VertexError* mErrors;
-  bool mMirrored;
-  Quad* mQuads;
-  Triangle* mTriangles;
-};
+/// True for the diagonal from corner 0 to 2, false for 1 to 3: where the summed error of the four vertices, taken at
+/// the diagonal's middle, is not larger.
+///
+/// About the edge's low end that sum is mᵀSm − 2hᵀm with S = ΣAₖ and h = Σ(Aₖrₖ + bₖ), where rₖ, a corner of a cube of
+/// edge 1, is the centre of cell k. With s and t twice the middles, the errors differ by a quarter of
+/// (s − t)ᵀ(S(s + t) − 4h), and in 4h the rₖ turn into signs.
+template <int axis>
+bool splitsAtFirst(const std::array<const VertexError*, 4>& error) {
+  const PackedError e0(*error[0]), e1(*error[1]), e2(*error[2]), e3(*error[3]);
+  const PackedError e02 = e0 + e2, e13 = e1 + e3, sum = e02 + e13;
+  const PackedError alongU = (e0 - e2) - (e1 - e3), alongV = (e0 - e2) + (e1 - e3);
+  const SymMat3<float> S = sum.A();
+  const Vec3f h4 = sum.b() * 4.0F +
+                   (column<axis>(S) + column<(axis + 1) % 3>(alongU.A()) + column<(axis + 2) % 3>(alongV.A())) * 2.0F;
+  const Vec3f difference = e02.x() - e13.x();
+  Vec3f total = sum.x();
+  total[axis] += 2.0F;
+  return !(dot(difference, S * total - h4) > 0);
+}
 
 }  // namespace
 
-void writeFaces(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored,
-                Quad* quads, Triangle* triangles, const Monitor& monitor) {
-  BlockProgress progress(monitor, "faces", blocks.coords.size());
-  const BlockFaceWriter writer(blocks, topology, errors, mirrored, quads, triangles);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) writer.run(i);
-    progress.advance(range.size());
+inline void BlockFaceWriter::write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const {
+  const Quad q = splitsAtFirst ? (reversed ? Quad{v[0], v[3], v[2], v[1]} : v)
+                               : (reversed ? Quad{v[1], v[0], v[3], v[2]} : Quad{v[1], v[2], v[3], v[0]});
+  if (mQuads != nullptr) {
+    mQuads[face] = q;
+  } else {
+    mTriangles[2 * face] = {q[0], q[1], q[2]};
+    mTriangles[2 * face + 1] = {q[0], q[2], q[3]};
+  }
+}
+
+template <int axis>
+void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, std::uint64_t face) const {
+  constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const BlockTopology& own = mTopology.blocks[block];
+  const BlockSigns& signs = mBlocks.signs[block];
+  for (int x = 0; x < kBlockSize; ++x)
+    for (std::uint64_t w = own.edges[axis].word[x]; w != 0; w &= w - 1) {
+      const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
+      Quad ring;
+      std::array<const VertexError*, 4> error;
+      for (int k = 0; k < 4; ++k) {
+        const auto [du, dv] = kRing[k];
+        Coord c{x, y, z};
+        c[u] -= du;
+        c[v] -= dv;
+        const int lower = (c[0] < 0) << 2 | (c[1] < 0) << 1 | (c[2] < 0);
+        const BlockTopology& b = lower == 0 ? own : mTopology.blocks[own.lower[lower]];
+        const std::uint64_t vertex = b.vertexAt(c[0] & 7, c[1] & 7, c[2] & 7, 4 * axis + du + 2 * dv);
+        ring[k] = static_cast<std::uint32_t>(vertex);
+        error[k] = &errors[vertex];
+      }
+      write(ring, splitsAtFirst<axis>(error), signs.inside(x, y, z) == mMirrored, face++);
+    }
+}
+
+void BlockFaceWriter::run(std::size_t block, const ErrorWindow& errors) const {
+  forEachBlock(mLevel, 1, [&](std::size_t) {
+    const BlockTopology& own = mTopology.blocks[block];
+    const auto x = own.firstQuad, y = x + own.edges[0].count(), z = y + own.edges[1].count();
+    runAxis<0>(block, errors, x);
+    runAxis<1>(block, errors, y);
+    runAxis<2>(block, errors, z);
   });
 }
 

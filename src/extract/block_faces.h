@@ -7,11 +7,47 @@
 
 namespace pdc::detail {
 
-/// Writes the faces of all blocks in parallel: quad i of the topology to quads[i], or to triangles[2i] and [2i + 1].
-/// Each starts at the corner that puts its diagonal where the summed quadric error of its vertices, taken at the
-/// diagonal's midpoint, is smaller: shorter or smaller diagonals cut creases off. \param quads, triangles one of them
-/// null.
-void writeFaces(const SurfaceBlocks& blocks, const Topology& topology, const VertexError* errors, bool mirrored,
-                Quad* quads, Triangle* triangles, const Monitor& monitor);
+/// The errors of two runs of consecutive vertices, those of a window of blocks and of the one before.
+struct ErrorWindow {
+  const VertexError* previous;
+  const VertexError* current;
+  std::uint64_t previousFirst, currentFirst;
+
+  [[nodiscard]] const VertexError& operator[](std::uint64_t vertex) const {
+    return vertex >= currentFirst ? current[vertex - currentFirst] : previous[vertex - previousFirst];
+  }
+};
+
+/// Writes the faces of blocks whose vertices and lower neighbours' vertices are solved: quad i of the topology to
+/// quads[i], or to triangles[2i] and [2i + 1]. Each starts at the corner that puts its diagonal where the summed
+/// quadric error of its vertices, taken at the diagonal's midpoint, is smaller: shorter or smaller diagonals cut
+/// creases off.
+class BlockFaceWriter {
+ public:
+  /// \param mirrored the lattice map turns right-handed frames into left-handed ones. \param quads, triangles one of
+  /// them null.
+  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, bool mirrored, Quad* quads,
+                  Triangle* triangles, SimdLevel level)
+      : mBlocks(blocks),
+        mTopology(topology),
+        mMirrored(mirrored),
+        mQuads(quads),
+        mTriangles(triangles),
+        mLevel(level) {}
+
+  void run(std::size_t block, const ErrorWindow& errors) const;
+
+ private:
+  template <int axis>
+  void runAxis(std::size_t block, const ErrorWindow& errors, std::uint64_t face) const;
+  void write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const;
+
+  const SurfaceBlocks& mBlocks;
+  const Topology& mTopology;
+  bool mMirrored;
+  Quad* mQuads;
+  Triangle* mTriangles;
+  SimdLevel mLevel;
+};
 
 }  // namespace pdc::detail

@@ -5,19 +5,39 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "extract/block_progress.h"
 
 namespace pdc::detail {
 namespace {
 
-/// Bits z of the cells of a row whose corners are not all on one side.
-unsigned mixedCells(const BlockSigns& s, int x, int y) {
-  const unsigned r00 = s.row[kBlockPoints * x + y], r01 = s.row[kBlockPoints * x + y + 1];
-  const unsigned r10 = s.row[kBlockPoints * (x + 1) + y], r11 = s.row[kBlockPoints * (x + 1) + y + 1];
-  const unsigned any = r00 | r01 | r10 | r11, all = r00 & r01 & r10 & r11;
-  return (any | any >> 1) & ~(all & all >> 1) & 0xFF;
+/// The low byte of each of eight consecutive rows.
+std::uint64_t lowBytes(const std::uint16_t* row, int shift) {
+  const auto four = [&](int first) {
+    std::uint64_t w;
+    static_assert(sizeof w == 4 * sizeof *row);
+    std::memcpy(&w, row + first, sizeof w);
+    w = w >> shift & 0x00FF00FF00FF00FF;
+    w = (w | w >> 8) & 0x0000FFFF0000FFFF;
+    return (w | w >> 16) & 0xFFFFFFFF;
+  };
+  return four(0) | four(4) << 32;
 }
+
+/// One layer of a block's points as seen by the 64 cells above it: the points at (y, z), (y + 1, z), (y, z + 1) and
+/// (y + 1, z + 1) of cell (y, z) in bit 8y + z.
+struct PointLayer {
+  PointLayer() = default;
+  PointLayer(const BlockSigns& signs, int x) {
+    const std::uint16_t* row = &signs.row[static_cast<std::size_t>(kBlockPoints * x)];
+    here = lowBytes(row, 0), y = lowBytes(row + 1, 0), z = lowBytes(row, 1), yz = lowBytes(row + 1, 1);
+  }
+  [[nodiscard]] std::uint64_t any() const { return here | y | z | yz; }
+  [[nodiscard]] std::uint64_t all() const { return here & y & z & yz; }
+
+  std::uint64_t here = 0, y = 0, z = 0, yz = 0;
+};
 
 /// Counts one block. Cells up to one beyond the block on each side are reached through the neighbouring blocks.
 class BlockCounter {
@@ -30,15 +50,16 @@ class BlockCounter {
     findCellsAndEdges();
     if (mBlocks.open) dropIncompleteEdges();
     findSpecialCells();
-    std::uint16_t before = 0;
-    for (int row = 0; row < kBlockSize * kBlockSize; ++row) {
-      mOut.cellsBefore[row] = before;
-      before = static_cast<std::uint16_t>(before + kBitCount[mOut.cells.word[row >> 3] >> 8 * (row & 7) & 0xFF]);
+    std::uint64_t before = 0;
+    for (int x = 0; x < kBlockSize; ++x) {
+      mOut.cellsBefore[x] = static_cast<std::uint16_t>(before);
+      before += bitCount(mOut.cells.word[x]);
     }
-    mOut.vertexCount = before;
+    mOut.vertexCount = static_cast<std::uint32_t>(before);
     if (!mOut.special.empty())
       mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
-    for (const CellMask& m : mOut.edges) mOut.quadCount += static_cast<std::uint32_t>(m.count());
+    for (const CellMask& m : mOut.edges)
+      for (const std::uint64_t w : m.word) mOut.quadCount += static_cast<std::uint32_t>(bitCount(w));
   }
 
  private:
@@ -48,19 +69,14 @@ class BlockCounter {
   }
 
   void findCellsAndEdges() {
+    PointLayer below, above(mSigns, 0);
     for (int x = 0; x < kBlockSize; ++x) {
-      std::uint64_t cells = 0;
-      std::array<std::uint64_t, 3> edges{};
-      for (int y = 0; y < kBlockSize; ++y) {
-        const unsigned r = mSigns.row[kBlockPoints * x + y];
-        const unsigned ry = mSigns.row[kBlockPoints * x + y + 1], rx = mSigns.row[kBlockPoints * (x + 1) + y];
-        cells |= std::uint64_t{mixedCells(mSigns, x, y)} << 8 * y;
-        edges[0] |= std::uint64_t{(r ^ rx) & 0xFF} << 8 * y;
-        edges[1] |= std::uint64_t{(r ^ ry) & 0xFF} << 8 * y;
-        edges[2] |= std::uint64_t{(r ^ r >> 1) & 0xFF} << 8 * y;
-      }
-      mOut.cells.word[x] = cells & mSigns.cells.word[x];
-      for (int a = 0; a < 3; ++a) mOut.edges[a].word[x] = edges[a];
+      below = above;
+      above = PointLayer(mSigns, x + 1);
+      mOut.cells.word[x] = (below.any() | above.any()) & ~(below.all() & above.all()) & mSigns.cells.word[x];
+      mOut.edges[0].word[x] = below.here ^ above.here;
+      mOut.edges[1].word[x] = below.here ^ below.y;
+      mOut.edges[2].word[x] = below.here ^ below.z;
     }
   }
 
@@ -183,22 +199,12 @@ const SpecialCell* BlockTopology::findSpecial(int cell) const {
   return it != special.end() && it->cell == cell ? &*it : nullptr;
 }
 
-std::uint64_t BlockTopology::cellVertex(int x, int y, int z) const {
-  const std::uint64_t row = cells.word[x] >> 8 * y, below = (std::uint64_t{1} << z) - 1;
-  std::uint64_t n = firstVertex + cellsBefore[8 * x + y] + kBitCount[row & below];
-  if (!special.empty()) {
-    const int cell = 64 * x + 8 * y + z;
-    const auto it = firstSpecialFrom(special, cell);
-    if (it != special.begin()) n += std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
-  }
+std::uint64_t BlockTopology::specialOffset(int cell, int edge) const {
+  const auto it = firstSpecialFrom(special, cell);
+  std::uint64_t n = 0;
+  if (it != special.begin()) n = std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
+  if (it != special.end() && it->cell == cell) n += static_cast<std::uint64_t>(it->vertex[edge]);
   return n;
-}
-
-std::uint64_t BlockTopology::vertexAt(int x, int y, int z, int edge) const {
-  const std::uint64_t first = cellVertex(x, y, z);
-  if (special.empty()) return first;
-  const SpecialCell* s = findSpecial(64 * x + 8 * y + z);
-  return s == nullptr ? first : first + static_cast<std::uint64_t>(s->vertex[edge]);
 }
 
 Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, FlipRule rule) {

@@ -20,24 +20,37 @@ struct SpecialCell {
   EdgeVertices patch;  ///< Which surface patch each sign-changing edge belongs to; vertices of one patch coincide.
 };
 
+/// Number of set bits, without the instruction that plain x86-64 lacks.
+constexpr std::uint64_t bitCount(std::uint64_t v) {
+  v -= v >> 1 & 0x5555555555555555;
+  v = (v & 0x3333333333333333) + (v >> 2 & 0x3333333333333333);
+  return ((v + (v >> 4)) & 0x0F0F0F0F0F0F0F0F) * 0x0101010101010101 >> 56;
+}
+
 /// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its
 /// points.
 struct BlockTopology {
-  CellMask cells;                             ///< Cells with at least one vertex.
-  std::array<CellMask, 3> edges;              ///< Per axis, the edges that get a quad.
-  std::array<std::uint16_t, 64> cellsBefore;  ///< Cells in the rows of `cells` before row 8x + y.
-  std::array<std::int32_t, 8> lower;          ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
-  std::vector<SpecialCell> special;           ///< By ascending cell.
+  CellMask cells;                                     ///< Cells with at least one vertex.
+  std::array<CellMask, 3> edges;                      ///< Per axis, the edges that get a quad.
+  std::array<std::uint16_t, kBlockSize> cellsBefore;  ///< Cells in the words of `cells` before word x.
+  std::array<std::int32_t, 8> lower;  ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
+  std::vector<SpecialCell> special;   ///< By ascending cell.
   std::uint32_t vertexCount = 0, quadCount = 0;
   std::uint32_t openArcs = 0;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
   std::uint64_t firstVertex = 0, firstQuad = 0;
 
   /// The special cell entry of a cell, or null.
   [[nodiscard]] const SpecialCell* findSpecial(int cell) const;
-  /// Number of the cell's first vertex in the mesh.
-  [[nodiscard]] std::uint64_t cellVertex(int x, int y, int z) const;
-  /// Number of the vertex that an edge's quad uses in a cell of this block.
-  [[nodiscard]] std::uint64_t vertexAt(int x, int y, int z, int edge) const;
+  /// Number in the mesh of the vertex that an edge's quad uses in a cell of this block.
+  [[nodiscard]] std::uint64_t vertexAt(int x, int y, int z, int edge) const {
+    const std::uint64_t below = (std::uint64_t{1} << (8 * y + z)) - 1;
+    const std::uint64_t n = firstVertex + cellsBefore[x] + bitCount(cells.word[x] & below);
+    return special.empty() ? n : n + specialOffset(64 * x + 8 * y + z, edge);
+  }
+
+ private:
+  /// What special cells add to the number of cells before: vertices beyond the first of earlier ones, and of this one.
+  [[nodiscard]] std::uint64_t specialOffset(int cell, int edge) const;
 };
 
 /// The corner signs of a cell of a block, as a code for kCellTable.

@@ -1,156 +1,250 @@
 #include "extract/block_vertices.h"
 
-#include <tbb/parallel_for.h>
-
-#include <atomic>
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
-#include "extract/block_progress.h"
+#include "extract/float4.h"
+#include "math/lane_loops.h"
+#include "pdc/math/quadric_batch.h"
 
 namespace pdc::detail {
 namespace {
 
 Vec3d toVec3d(const Coord& c) { return {double(c[0]), double(c[1]), double(c[2])}; }
 
-/// Position of an edge's low corner from the centre of the cell.
-constexpr auto kEdgeBase = [] {
-  std::array<Vec3d, kEdges> base{};
+/// EdgeIndex slots of a cell's edges, from the slot of its low corner along x.
+constexpr auto kEdgeSlot = [] {
+  std::array<int, kEdges> slot{};
   for (int e = 0; e < kEdges; ++e) {
     const int low = edgeLowCorner(e);
-    base[e] = {(low & 1) - 0.5, (low >> 1 & 1) - 0.5, (low >> 2) - 0.5};
+    slot[e] = EdgeIndex::slot(edgeAxis(e), low & 1, low >> 1 & 1, low >> 2);
   }
-  return base;
+  return slot;
 }();
 
-/// Solves the vertices of one block after another, reusing its scratch space.
-class BlockVertexSolver {
- public:
-  BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, const VertexOutput& out,
-                    VertexCounts& counts)
-      : mSource(source), mMap(source.map()), mSolver(solver), mOut(out), mCounts(counts) {}
+/// A crossing in lattice units: its plane's row (see PatchSamples) and its place from the block's origin.
+struct Crossing {
+  Float4 row, place;
+};
 
-  void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology) {
-    const EdgeIndex edges(signs);
-    mSource.fillHermite(block, signs, edges, mHermite);
-    mOrigin = toVec3d({block[0] * kBlockSize, block[1] * kBlockSize, block[2] * kBlockSize});
-    const CellMetric metric = blockMetric();
-    fillRows(edges, metric);
-    mCounts.crossings += topology.quadCount;
+/// Only a map that is not affine has a metric that changes from block to block; within one it is taken as constant.
+CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
+  if (map.affine()) return CellMetric(map.jacobian({}), map.voxelSize());
+  constexpr double kMiddle = kBlockSize / 2.0;
+  const Mat3d J = map.jacobian(origin + Vec3d{kMiddle, kMiddle, kMiddle});
+  return CellMetric(J, std::cbrt(std::abs(J.determinant())));
+}
 
+/// One block while its vertices are being solved.
+struct BlockState {
+  const BlockTopology& topology;
+  const BlockSigns& signs;
+  const EdgeIndex& edges;
+  const CellMetric& metric;
+  Vec3d origin;
+  const VertexOutput& out;
+  VertexCounts& counts;
+};
+
+/// A vertex to solve: the cell in its block, the edges of its patch, its number in the mesh.
+struct Waiting {
+  Coord cell;
+  unsigned edges;
+  std::uint64_t vertex;
+};
+
+/// The sign-changing edges of the patch that vertex v of a special cell belongs to.
+unsigned patchEdges(const SpecialCell& special, unsigned present, int v) {
+  int patch = kNone;
+  for (int e = 0; e < kEdges; ++e)
+    if (special.vertex[e] == v) patch = special.patch[e];
+  unsigned edges = 0;
+  for (unsigned bits = present; bits != 0; bits &= bits - 1) {
+    const int e = std::countr_zero(bits);
+    if (special.patch[e] == patch) edges |= 1u << e;
+  }
+  return edges;
+}
+
+}  // namespace
+
+/// Vertices wait in lanes until a register's worth of them can be solved at once, in single precision about their mass
+/// points. Those that leave their bounds, and all where σn is too small for single precision, are solved in double.
+struct BlockVertexSolver::Scratch {
+  Scratch(const LatticeMap& m, const VertexSolver& s, SimdLevel l) : map(m), solver(s), level(l) {}
+
+  void run(const BlockState& block) {
+    fillCrossings(block);
+    block.counts.crossings += block.topology.quadCount;
+    const BlockTopology& topology = block.topology;
     std::uint64_t vertex = topology.firstVertex;
     for (int x = 0; x < kBlockSize; ++x)
       for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
-        const unsigned present = kCellTable[cellCode(signs, x, y, z)].edges;
+        const unsigned present = kCellTable[cellCode(block.signs, x, y, z)].edges;
         const SpecialCell* special = topology.special.empty() ? nullptr : topology.findSpecial(64 * x + bit);
         if (special == nullptr) {
-          solveOne(edges, metric, {x, y, z}, present, vertex++);
+          add(block, {x, y, z}, present, vertex++);
         } else {
           for (int v = 0; v < special->vertexCount; ++v)
-            solveOne(edges, metric, {x, y, z}, patchEdges(*special, present, v), vertex++);
+            add(block, {x, y, z}, patchEdges(*special, present, v), vertex++);
         }
       }
+    flush(block);
   }
 
- private:
-  /// The sign-changing edges of the patch that vertex v of a special cell belongs to.
-  static unsigned patchEdges(const SpecialCell& special, unsigned present, int v) {
-    int patch = kNone;
-    for (int e = 0; e < kEdges; ++e)
-      if (special.vertex[e] == v) patch = special.patch[e];
-    unsigned edges = 0;
-    for (unsigned bits = present; bits != 0; bits &= bits - 1) {
-      const int e = std::countr_zero(bits);
-      if (special.patch[e] == patch) edges |= 1u << e;
-    }
-    return edges;
-  }
-
-  /// Only a map that is not affine has a metric that changes from block to block; within one it is taken as constant.
-  CellMetric blockMetric() const {
-    if (mMap.affine()) return CellMetric(mMap.jacobian({}), mMap.voxelSize());
-    constexpr double kMiddle = kBlockSize / 2.0;
-    const Mat3d J = mMap.jacobian(mOrigin + Vec3d{kMiddle, kMiddle, kMiddle});
-    return CellMetric(J, std::cbrt(std::abs(J.determinant())));
-  }
-
-  void fillRows(const EdgeIndex& edges, const CellMetric& metric) {
-    edges.forEach([&](int i, int axis, int x, int y, int z) {
-      const Vec3d n{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]};
+  void fillCrossings(const BlockState& block) {
+    const Mat3d Mt = block.metric.M.transposed();
+    block.edges.forEach([&](int i, int axis, int x, int y, int z) {
+      const Vec3f n{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
       const bool owned = x < kBlockSize && y < kBlockSize && z < kBlockSize;
-      mCounts.withoutNormal += owned && n == Vec3d{};
-      if (metric.identity) return;
-      if (mMap.affine()) {
-        mRow[i] = metric.M.transposed() * n;
+      block.counts.withoutNormal += owned && n == Vec3f{};
+      Float4 place{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0.0F};
+      place[axis] += hermite.t[i];
+      crossing[i].place = place;
+      if (block.metric.identity) {
+        crossing[i].row = float4(n);
+      } else if (map.affine()) {
+        crossing[i].row = float4(vecCast<float>(Mt * vecCast<double>(n)));
       } else {
-        Vec3d p = mOrigin + Vec3d{double(x), double(y), double(z)};
-        p[axis] += mHermite.t[i];
-        mRow[i] = mMap.jacobian(p).transposed() * n * (1 / metric.voxelSize);
+        const Vec3d p = block.origin + vecCast<double>(vec3(place));
+        crossing[i].row =
+            float4(vecCast<float>(map.jacobian(p).transposed() * vecCast<double>(n) * (1 / block.metric.voxelSize)));
       }
     });
   }
 
-  void solveOne(const EdgeIndex& edges, const CellMetric& metric, const Coord& cell, unsigned present,
-                std::uint64_t vertex) {
-    mSamples.size = 0;
-    Vec3d normal{};
-    for (unsigned bits = present; bits != 0; bits &= bits - 1) {
-      const int e = std::countr_zero(bits), low = edgeLowCorner(e), axis = edgeAxis(e);
-      const int i = edges(axis, cell[0] + (low & 1), cell[1] + (low >> 1 & 1), cell[2] + (low >> 2));
-      Vec3d& p = mSamples.position[mSamples.size];
-      p = kEdgeBase[e];
-      p[axis] += mHermite.t[i];
-      const Vec3d n{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]};
-      mSamples.row[mSamples.size++] = metric.identity ? n : mRow[i];
-      normal += n;
-    }
-    const SolvedVertex v = mSolver.solve(mSamples, metric);
-    mCounts.outOfCell += v.outOfCell;
-    mCounts.moved += v.moved;
-    const Vec3d center = mOrigin + toVec3d(cell) + Vec3d{0.5, 0.5, 0.5};
-    mOut.positions[vertex] = vecCast<float>(mMap.position(center + v.x));
-    mOut.errors[vertex] = {vecCast<float>(v.x),
-                           {float(v.A.xx), float(v.A.xy), float(v.A.xz), float(v.A.yy), float(v.A.yz), float(v.A.zz)},
-                           vecCast<float>(v.halfGradient)};
-    if (mOut.normals != nullptr) {
-      const double l = length(normal);
-      mOut.normals[vertex] = vecCast<float>(l > 0 ? normal * (1 / l) : Vec3d{});
-    }
+  void add(const BlockState& block, const Coord& cell, unsigned edges, std::uint64_t vertex) {
+    waiting[lanes] = {cell, edges, vertex};
+    if (solver.batched()) sumPlanes(block, waiting[lanes], lanes);
+    if (++lanes == kLanes) flush(block);
   }
 
-  const HermiteSource& mSource;
-  const LatticeMap& mMap;
-  const VertexSolver& mSolver;
-  const VertexOutput& mOut;
-  VertexCounts& mCounts;
-  Vec3d mOrigin{};
-  PatchSamples mSamples;
-  HermiteBlock mHermite;
-  std::array<Vec3d, EdgeIndex::kMaxEdges> mRow;
+  /// The normal equations of a patch about its mass point: there the right-hand side is small where the surface is
+  /// flat, and so is what rounding does to it.
+  void sumPlanes(const BlockState& block, const Waiting& w, int lane) {
+    const auto [x, y, z] = w.cell;
+    const Float4 center{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z) + 0.5F, 0.0F};
+    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, x, y, z);
+    const Crossing* at[kEdges];
+    int n = 0;
+    Float4 places{};
+    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
+      at[n] = &crossing[number[kEdgeSlot[std::countr_zero(bits)]]];
+      places += at[n++]->place - center;
+    }
+    const Float4 massPoint = places * (1.0F / static_cast<float>(n));
+    const Float4 origin = massPoint + center;
+    Float4 x0{}, x1{}, x2{}, b{};
+    for (int i = 0; i < n; ++i) {
+      const Float4 row = at[i]->row;
+      x0 += row * row[0];
+      x1 += row * row[1];
+      x2 += row * row[2];
+      b += row * dot3(row, at[i]->place - origin);
+    }
+    const SymMat3<float>& S = Sigma_n;
+    const auto count = static_cast<float>(n);
+    system.A.set(lane, {x0[0] + count * S.xx, x0[1] + count * S.xy, x0[2] + count * S.xz, x1[1] + count * S.yy,
+                        x1[2] + count * S.yz, x2[2] + count * S.zz});
+    system.b.set(lane, vec3(b));
+    mass[lane] = vec3(massPoint);
+  }
+
+  void flush(const BlockState& block) {
+    if (solver.batched() && lanes > 0) {
+      for (int lane = lanes; lane < kLanes; ++lane)
+        system.set(lane, NormalEquations<float>{SymMat3<float>::identity(), {}});
+      solveLdlt(std::span<const NormalEquationsLanes<float>>(&system, 1), std::span<SolutionLanes<float>>(&solution, 1),
+                level);
+    }
+    for (int lane = 0; lane < lanes; ++lane) {
+      const Waiting& w = waiting[lane];
+      if (!solver.batched() || solution.solved[lane] == 0) {
+        solveAlone(block, w);
+        continue;
+      }
+      const Vec3f v = mass[lane] + solution.x.get(lane);
+      const float reach = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+      if (!(reach <= solver.halfSize())) {
+        solveAlone(block, w);
+        continue;
+      }
+      block.counts.outOfCell += reach > 0.5F;
+      const SymMat3<float> A = system.A.get(lane);
+      write(block, w, {v, A, A * v});
+    }
+    lanes = 0;
+  }
+
+  void solveAlone(const BlockState& block, const Waiting& w) {
+    const auto [x, y, z] = w.cell;
+    const Vec3d center{x + 0.5, y + 0.5, z + 0.5};
+    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, x, y, z);
+    samples.size = 0;
+    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
+      const Crossing& c = crossing[number[kEdgeSlot[std::countr_zero(bits)]]];
+      samples.position[samples.size] = vecCast<double>(vec3(c.place)) - center;
+      samples.row[samples.size++] = vecCast<double>(vec3(c.row));
+    }
+    const SolvedVertex v = solver.solve(samples, block.metric);
+    block.counts.outOfCell += v.outOfCell;
+    block.counts.moved += v.moved;
+    write(block, w, {vecCast<float>(v.x), matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)});
+  }
+
+  static SymMat3<float> matrixCast(const SymMat3<double>& A) {
+    const auto f = [](double v) { return static_cast<float>(v); };
+    return {f(A.xx), f(A.xy), f(A.xz), f(A.yy), f(A.yz), f(A.zz)};
+  }
+
+  void write(const BlockState& block, const Waiting& w, const VertexError& error) {
+    const Vec3d inBlock = toVec3d(w.cell) + Vec3d{0.5, 0.5, 0.5} + vecCast<double>(error.x);
+    block.out.positions[w.vertex] = vecCast<float>(map.position(block.origin + inBlock));
+    block.out.errors[w.vertex - block.out.firstError] = error;
+    if (block.out.normals != nullptr) block.out.normals[w.vertex] = meanNormal(block, w);
+  }
+
+  Vec3f meanNormal(const BlockState& block, const Waiting& w) const {
+    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, w.cell[0], w.cell[1], w.cell[2]);
+    Vec3d sum{};
+    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
+      const int i = number[kEdgeSlot[std::countr_zero(bits)]];
+      sum += Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
+    }
+    const double l = length(sum);
+    return vecCast<float>(l > 0 ? sum * (1 / l) : Vec3d{});
+  }
+
+  const LatticeMap& map;
+  const VertexSolver& solver;
+  const SimdLevel level;
+  SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
+  HermiteBlock hermite;
+  std::array<Crossing, EdgeIndex::kMaxEdges> crossing;
+  std::array<Waiting, kLanes> waiting;
+  std::array<Vec3f, kLanes> mass;
+  NormalEquationsLanes<float> system;
+  SolutionLanes<float> solution;
+  int lanes = 0;
+  PatchSamples samples;
 };
 
-}  // namespace
+BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, SimdLevel level)
+    : mSource(source), mSolver(solver), mScratch(std::make_unique<Scratch>(source.map(), solver, level)) {}
 
-VertexCounts solveVertices(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                           const VertexSolver& solver, const VertexOutput& out, const Monitor& monitor) {
-  BlockProgress progress(monitor, "solve", blocks.coords.size());
-  std::atomic<std::size_t> crossings{0}, withoutNormal{0}, outOfCell{0}, moved{0};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
-    VertexCounts counts;
-    BlockVertexSolver block(source, solver, out, counts);
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      monitor.throwIfStopped();
-      block.run(blocks.coords[i], blocks.signs[i], topology.blocks[i]);
-    }
-    crossings += counts.crossings;
-    withoutNormal += counts.withoutNormal;
-    outOfCell += counts.outOfCell;
-    moved += counts.moved;
-    progress.advance(range.size());
-  });
-  return {crossings, withoutNormal, outOfCell, moved};
+BlockVertexSolver::~BlockVertexSolver() = default;
+
+void BlockVertexSolver::run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology,
+                            const VertexOutput& out, VertexCounts& counts) {
+  const EdgeIndex edges(signs);
+  const Vec3d origin = toVec3d({block[0] * kBlockSize, block[1] * kBlockSize, block[2] * kBlockSize});
+  const CellMetric metric = blockMetric(mSource.map(), origin);
+  mScratch->Sigma_n = Scratch::matrixCast(metric.G * (mSolver.sigma() * mSolver.sigma()));
+  mSource.fillHermite(block, signs, edges, mScratch->hermite);
+  const BlockState state{topology, signs, edges, metric, origin, out, counts};
+  forEachBlock(mScratch->level, 1, [&](std::size_t) { mScratch->run(state); });
 }
 
 }  // namespace pdc::detail

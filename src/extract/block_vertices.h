@@ -1,36 +1,58 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "extract/block_topology.h"
 #include "extract/vertex_solver.h"
+#include "pdc/math/simd_level.h"
 
 namespace pdc::detail {
 
-/// What the choice of a quad's diagonal needs to know of each vertex: its place and the shape of its quadric's error
-/// there.
+/// What the choice of a quad's diagonal needs to know of each vertex: its place and its quadric, in lattice units from
+/// the centre of its cell.
 struct VertexError {
-  Vec3f x;  ///< Lattice units from the centre of the vertex' cell.
+  Vec3f x;
   SymMat3<float> A;
-  Vec3f halfGradient;
-
-  /// Growth of the error from the vertex to x + d.
-  [[nodiscard]] float at(const Vec3f& d) const { return quadraticForm(A, d) + 2 * dot(halfGradient, d); }
+  Vec3f b;
 };
 
 struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
+
+  VertexCounts& operator+=(const VertexCounts& c) {
+    crossings += c.crossings;
+    withoutNormal += c.withoutNormal;
+    outOfCell += c.outOfCell;
+    moved += c.moved;
+    return *this;
+  }
 };
 
-/// Where solved vertices go; all arrays have the mesh's number of vertices, `normals` may be null.
+/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and errors[i - firstError].
 struct VertexOutput {
   Vec3f* positions;
   Vec3f* normals;
   VertexError* errors;
+  std::uint64_t firstError;
 };
 
-/// Samples and solves all blocks in parallel.
-VertexCounts solveVertices(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                           const VertexSolver& solver, const VertexOutput& out, const Monitor& monitor);
+/// Samples and solves the vertices of one block after another. For one thread; large: keep it off the stack.
+class BlockVertexSolver {
+ public:
+  BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, SimdLevel level);
+  ~BlockVertexSolver();
+  BlockVertexSolver(const BlockVertexSolver&) = delete;
+  BlockVertexSolver& operator=(const BlockVertexSolver&) = delete;
+
+  void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const VertexOutput& out,
+           VertexCounts& counts);
+
+ private:
+  struct Scratch;
+  const HermiteSource& mSource;
+  const VertexSolver& mSolver;
+  std::unique_ptr<Scratch> mScratch;
+};
 
 }  // namespace pdc::detail

@@ -5,13 +5,12 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
-#include "extract/block_faces.h"
 #include "extract/block_topology.h"
-#include "extract/block_vertices.h"
-#include "extract/vertex_solver.h"
+#include "extract/fill_mesh.h"
 
 namespace pdc {
 namespace {
@@ -25,24 +24,12 @@ void checkOptions(const ContourOptions& options) {
 
 Mesh run(const HermiteSource& source, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
   const SurfaceBlocks blocks = source.surfaceBlocks(monitor);
+  if (!std::is_sorted(blocks.coords.begin(), blocks.coords.end()))
+    throw std::invalid_argument("contour: the source's blocks are not sorted");
   const detail::Topology topology = detail::buildTopology(blocks, monitor);
   detail::checkVertexCount(topology.vertexCount);
   Mesh mesh;
-  mesh.positions.resize(topology.vertexCount);
-  if (options.normals) mesh.normals.resize(topology.vertexCount);
-  Buffer<detail::VertexError> errors(topology.vertexCount);
-  const detail::VertexCounts counts =
-      solveVertices(source, blocks, topology, detail::VertexSolver(options.sigmaNormal, options.placement),
-                    {mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, errors.data()}, monitor);
-
-  if (options.triangles) {
-    mesh.triangles.resize(2 * topology.quadCount);
-  } else {
-    mesh.quads.resize(topology.quadCount);
-  }
-  detail::writeFaces(blocks, topology, errors.data(), source.map().mirrored(),
-                     options.triangles ? nullptr : mesh.quads.data(),
-                     options.triangles ? mesh.triangles.data() : nullptr, monitor);
+  const detail::VertexCounts counts = fillMesh(source, blocks, topology, options, mesh, monitor);
   if (report != nullptr)
     *report = {blocks.coords.size(), counts.crossings,          counts.outOfCell,    counts.moved,
                topology.openArcs,    topology.multiVertexCells, counts.withoutNormal};

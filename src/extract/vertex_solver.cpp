@@ -19,6 +19,10 @@ constexpr double kFreeHalfSize = 2.0;
 /// Eigenvalues of the classical quadric below this share of the largest count as zero (Lindstrom 2000).
 constexpr double kRankCutoff = 1e-3;
 
+/// σn from which single precision serves: the condition of a patch's matrix is at most 1/σn², here 1e4, so that its
+/// solution is good to 1e-3 of a step that is itself small wherever the condition is large.
+constexpr double kMinBatchSigma = 0.01;
+
 double largest(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// KᵀAK.
@@ -46,6 +50,8 @@ CellMetric::CellMetric(const Mat3d& jacobian, double unit)
 
 VertexSolver::VertexSolver(double sigmaNormal, Placement placement)
     : mSigma(sigmaNormal), mHalfSize(placement == Placement::kFree ? kFreeHalfSize : 0.5 - kCellMargin) {}
+
+bool VertexSolver::batched() const { return mSigma >= kMinBatchSigma && std::isfinite(mSigma); }
 
 SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& metric) const {
   const double n = samples.size;

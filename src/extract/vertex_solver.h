@@ -45,6 +45,13 @@ class VertexSolver {
 
   [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
 
+  [[nodiscard]] double sigma() const { return mSigma; }
+  /// How far the vertex may lie from the centre of its cell along an axis.
+  [[nodiscard]] double halfSize() const { return mHalfSize; }
+  /// True if σn is such that the free minimiser, A⁻¹ times the right-hand side about the mass point, may be found in
+  /// single precision.
+  [[nodiscard]] bool batched() const;
+
  private:
   [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
   void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;

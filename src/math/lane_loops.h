@@ -28,12 +28,12 @@ template <typename F>
 
 #if defined(__x86_64__)
 template <typename F>
-[[gnu::flatten, gnu::target("avx2")]] void loopAvx2(std::size_t count, const F& f) {
+[[gnu::flatten, gnu::target("avx2,bmi,bmi2,popcnt")]] void loopAvx2(std::size_t count, const F& f) {
   for (std::size_t i = 0; i < count; ++i) f(i);
 }
 
 template <typename F>
-[[gnu::flatten, gnu::target("avx512f")]] void loopAvx512(std::size_t count, const F& f) {
+[[gnu::flatten, gnu::target("avx512f,bmi,bmi2,popcnt")]] void loopAvx512(std::size_t count, const F& f) {
   for (std::size_t i = 0; i < count; ++i) f(i);
 }
 #endif

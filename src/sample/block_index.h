@@ -29,7 +29,9 @@ class BlockIndex {
   [[nodiscard]] std::int32_t find(const Coord& block) const {
     if (mSlots.empty()) return kMissing;
     for (std::size_t s = hash(block) & (mSlots.size() - 1);; s = (s + 1) & (mSlots.size() - 1)) {
-      if (mSlots[s].position == kMissing || mSlots[s].block == block) return mSlots[s].position;
+      const Coord& b = mSlots[s].block;
+      if (mSlots[s].position == kMissing || (b[0] == block[0] && b[1] == block[1] && b[2] == block[2]))
+        return mSlots[s].position;
     }
   }
 

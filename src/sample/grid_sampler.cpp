@@ -1,17 +1,47 @@
 #include "sample/grid_sampler.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+
 #include <array>
+#include <numeric>
 
 #include "sample/grid_leaves.h"
+#include "sample/halo.h"
+#include "sample/tile_faces.h"
 
 namespace pdc::detail {
 namespace {
 
-/// A block's points and their neighbours: lattice points -1 to 9 on each axis.
-constexpr int kHalo = kBlockPoints + 2;
-
-constexpr int haloIndex(int x, int y, int z) { return (kHalo * (x + 1) + y + 1) * kHalo + z + 1; }
-constexpr std::array<int, 3> kHaloStep{kHalo * kHalo, kHalo, 1};
+/// Sorts and removes what is there twice.
+void sortUnique(std::vector<Coord>& blocks) {
+  if (blocks.empty()) return;
+  Coord low = blocks[0], high = blocks[0];
+  for (const Coord& b : blocks)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], b[i]);
+      high[i] = std::max(high[i], b[i]);
+    }
+  // As single numbers where they fit: several times as fast.
+  constexpr int kBits = 21;
+  bool packs = true;
+  for (int i = 0; i < 3; ++i) packs = packs && std::int64_t{high[i]} - low[i] < std::int64_t{1} << kBits;
+  if (!packs) {
+    tbb::parallel_sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return;
+  }
+  const auto part = [&](const Coord& b, int i) { return static_cast<std::uint64_t>(b[i] - low[i]); };
+  std::vector<std::uint64_t> keys(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    keys[i] = part(blocks[i], 0) << 2 * kBits | part(blocks[i], 1) << kBits | part(blocks[i], 2);
+  tbb::parallel_sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  blocks.resize(keys.size());
+  constexpr std::uint64_t kPart = (std::uint64_t{1} << kBits) - 1;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    for (int k = 0; k < 3; ++k) blocks[i][k] = low[k] + static_cast<std::int32_t>(keys[i] >> (2 - k) * kBits & kPart);
+}
 
 template <typename GridT>
 class TypedGridSampler final : public GridSampler {
@@ -22,7 +52,7 @@ class TypedGridSampler final : public GridSampler {
   using Accessor = openvdb::tree::ValueAccessor<const TreeT>;
 
   TypedGridSampler(typename GridT::ConstPtr grid, const GridReading& reading)
-      : mGrid(std::move(grid)), mReader{reading} {
+      : mGrid(std::move(grid)), mReading(reading), mReader(reading) {
     const double low = -reading.clamp - reading.iso, high = reading.clamp - reading.iso;
     mLow = static_cast<float>(low + 1e-6 * std::abs(low));
     mHigh = static_cast<float>(high - 1e-6 * std::abs(high));
@@ -30,91 +60,125 @@ class TypedGridSampler final : public GridSampler {
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override {
     monitor.throwIfStopped();
-    const GridLeaves<TreeT> leaves(mGrid->tree(), mReader);
+    const GridLeaves<TreeT> leaves(mGrid->tree(), mReader, mReading.acceptNonFinite);
     monitor.throwIfStopped();
-    std::vector<Coord> candidates = candidateBlocks(leaves, monitor);
+    const std::vector<Coord> candidates = candidateBlocks(leaves, monitor);
     monitor.throwIfStopped();
 
-    Buffer<BlockSigns> signs(candidates.size());
-    std::vector<char> keep(candidates.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 64), [&](const auto& range) {
+    // Chunks of candidates find their surface blocks, then move them to where they belong.
+    constexpr std::size_t kChunk = 256;
+    const std::size_t chunks = (candidates.size() + kChunk - 1) / kChunk;
+    std::vector<SurfaceBlocks> found(chunks);
+    std::vector<std::size_t> first(chunks + 1);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
       monitor.throwIfStopped();
       Accessor accessor(mGrid->tree());
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
-        keep[i] = readSigns(leaves, accessor, candidates[i], signs[i]);
+      BlockSigns signs;
+      for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, candidates.size()); ++i)
+        if (readSigns(leaves, accessor, candidates[i], signs)) {
+          found[c].coords.push_back(candidates[i]);
+          found[c].signs.push_back(signs);
+        }
+      first[c + 1] = found[c].coords.size();
     });
-
+    std::partial_sum(first.begin(), first.end(), first.begin());
     SurfaceBlocks out;
-    out.open = mReader.reading.open;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (!keep[i]) continue;
-      out.coords.push_back(candidates[i]);
-      out.signs.push_back(signs[i]);
-    }
+    out.open = mReading.open;
+    out.coords.resize(first[chunks]);
+    out.signs.resize(first[chunks]);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+      std::copy(found[c].coords.begin(), found[c].coords.end(), out.coords.begin() + std::ptrdiff_t(first[c]));
+      std::copy(found[c].signs.begin(), found[c].signs.end(), out.signs.begin() + std::ptrdiff_t(first[c]));
+    });
     return out;
   }
 
   void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                    HermiteBlock& hermite) const override {
-    std::array<float, kHalo * kHalo * kHalo> values;
-    readHalo(block, values);
-    const bool affine = map.affine();
-    Mat3d normalMap;
-    if (affine) normalMap = inverse(map.jacobian({})).transposed();
+    Halo halo;
+    readHalo(block, edges, halo);
+    const SlopeLimits limits{mLow, mHigh};
+    const auto normalMap = [&map](const Vec3d& x) {
+      // Scaled to lattice units, in which gradients are as large as differences of values.
+      return inverse(map.jacobian(x)).transposed() * map.voxelSize();
+    };
+    if (map.affine()) {
+      fillFromHalo(halo, edges, limits, toFloat(normalMap({})), hermite);
+      return;
+    }
+    fillFromHalo(halo, edges, limits, Mat3f::identity(), hermite);
     edges.forEach([&](int i, int axis, int x, int y, int z) {
-      const float* p = &values[haloIndex(x, y, z)];
-      const float t = crossing(p[0], p[kHaloStep[axis]]);
-      hermite.t[i] = t;
-      if (!affine) {
-        Vec3d at{8.0 * block[0] + x, 8.0 * block[1] + y, 8.0 * block[2] + z};
-        at[axis] += t;
-        normalMap = inverse(map.jacobian(at)).transposed();
-      }
-      const Vec3d g = normalMap * gradient(p, axis, t);
+      Vec3d at{8.0 * block[0] + x, 8.0 * block[1] + y, 8.0 * block[2] + z};
+      at[axis] += hermite.t[i];
+      const Vec3d g = normalMap(at) * Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
       const double l = length(g);
-      const Vec3d n = l > 0 && std::isfinite(l) ? g * (1 / l) : Vec3d{};
-      hermite.nx[i] = static_cast<float>(n.x);
-      hermite.ny[i] = static_cast<float>(n.y);
-      hermite.nz[i] = static_cast<float>(n.z);
+      const Vec3f n = vecCast<float>(l > 0 && std::isfinite(l) ? g * (1 / l) : Vec3d{});
+      hermite.nx[i] = n.x;
+      hermite.ny[i] = n.y;
+      hermite.nz[i] = n.z;
     });
   }
 
  private:
   /// Every block with a cell that could change sign, each once, sorted.
   [[nodiscard]] std::vector<Coord> candidateBlocks(const GridLeaves<TreeT>& leaves, const Monitor& monitor) const {
-    std::vector<Coord> blocks;
-    findTileFaces(mGrid->tree(), mReader, monitor, blocks);
+    std::vector<Coord> blocks = leaves.coords();
+    TileFaces<TreeT>(mGrid->tree(), mReader).find(monitor, blocks);
     // A leaf's points are corners of cells of its own block and of the seven blocks below it.
-    for (const Coord& b : leaves.coords())
-      for (int i = 0; i < 8; ++i) {
-        const Coord c{b[0] - (i >> 2), b[1] - (i >> 1 & 1), b[2] - (i & 1)};
-        if (i == 0 || leaves.find(c) == BlockIndex::kMissing) blocks.push_back(c);
-      }
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    tbb::enumerable_thread_specific<std::vector<Coord>> missing;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size(), 256), [&](const auto& range) {
+      std::vector<Coord>& local = missing.local();
+      for (std::size_t l = range.begin(); l != range.end(); ++l)
+        for (int i = 1; i < 8; ++i) {
+          const Coord& b = leaves.coords()[l];
+          const Coord c{b[0] - (i >> 2), b[1] - (i >> 1 & 1), b[2] - (i & 1)};
+          if (leaves.find(c) == BlockIndex::kMissing) local.push_back(c);
+        }
+    });
+    for (const std::vector<Coord>& part : missing) blocks.insert(blocks.end(), part.begin(), part.end());
+    sortUnique(blocks);
     return blocks;
   }
 
   /// Gathers a block's 9×9×9 points from the eight leaves or tiles they lie in. \returns true if the block holds
   /// surface.
   bool readSigns(const GridLeaves<TreeT>& leaves, Accessor& accessor, const Coord& block, BlockSigns& signs) const {
+    std::array<std::int32_t, 8> leaf;
+    std::array<Side, 8> side;
+    bool mixed = false;
+    const auto origin = [&block](int i) {
+      return openvdb::Coord((block[0] + (i >> 2)) * kBlockSize, (block[1] + (i >> 1 & 1)) * kBlockSize,
+                            (block[2] + (i & 1)) * kBlockSize);
+    };
+    for (int i = 0; i < 8; ++i) {
+      leaf[i] = leaves.find({block[0] + (i >> 2), block[1] + (i >> 1 & 1), block[2] + (i & 1)});
+      if (leaf[i] != BlockIndex::kMissing) {
+        side[i] = leaves.side(leaf[i]);
+      } else {
+        side[i] = mReader.inside(accessor.getValue(origin(i))) ? Side::kInside : Side::kOutside;
+      }
+      mixed = mixed || side[i] == Side::kBoth || side[i] != side[0];
+    }
+    if (!mixed) return false;
+
     std::array<CellMask, 8> inside, active;
     for (int i = 0; i < 8; ++i) {
-      const Coord c{block[0] + (i >> 2), block[1] + (i >> 1 & 1), block[2] + (i & 1)};
-      const std::int32_t leaf = leaves.find(c);
-      if (leaf != BlockIndex::kMissing) {
-        inside[i] = leaves.inside(leaf);
-        if (mReader.reading.open) active[i] = leaves.active(leaf);
+      if (side[i] == Side::kBoth) {
+        inside[i] = leaves.inside(leaf[i]);
       } else {
-        const openvdb::Coord p(c[0] * kBlockSize, c[1] * kBlockSize, c[2] * kBlockSize);
-        inside[i] = mReader.inside(accessor.getValue(p)) ? CellMask::all() : CellMask{};
-        if (mReader.reading.open) active[i] = accessor.isValueOn(p) ? CellMask::all() : CellMask{};
+        inside[i] = side[i] == Side::kInside ? CellMask::all() : CellMask{};
+      }
+      if (!mReading.open) continue;
+      if (leaf[i] != BlockIndex::kMissing) {
+        active[i] = leaves.active(leaf[i]);
+      } else {
+        active[i] = accessor.isValueOn(origin(i)) ? CellMask::all() : CellMask{};
       }
     }
     joinRows(inside, signs.row);
     signs.cells = CellMask::all();
     if (signs.uniform()) return false;
-    if (!mReader.reading.open) return true;
+    if (!mReading.open) return true;
     BlockSigns activity;
     joinRows(active, activity.row);
     signs.cells = cellsWithAllCorners(activity);
@@ -143,63 +207,55 @@ class TypedGridSampler final : public GridSampler {
     return cells;
   }
 
-  void readHalo(const Coord& block, std::array<float, kHalo * kHalo * kHalo>& values) const {
-    Accessor accessor(mGrid->tree());
-    // On each axis: the last point of the block below, the eight of the block, and the first two of the block above.
-    constexpr int kFirst[3] = {-1, 0, 8}, kCount[3] = {1, 8, 2};
-    for (int i = 0; i < 27; ++i) {
-      const std::array<int, 3> part{i / 9, i / 3 % 3, i % 3};
-      const openvdb::Coord origin((block[0] + part[0] - 1) * kBlockSize, (block[1] + part[1] - 1) * kBlockSize,
-                                  (block[2] + part[2] - 1) * kBlockSize);
+  /// A neighbouring block's rows of eight values along z; those of a tile are all the same.
+  class Rows {
+   public:
+    void find(Accessor& accessor, const openvdb::Coord& origin) {
       const LeafT* leaf = accessor.probeConstLeaf(origin);
-      const LeafValues<LeafT> stored(leaf);
-      const float tile = leaf == nullptr ? mReader.value(accessor.getValue(origin)) : 0;
-      for (int x = kFirst[part[0]]; x < kFirst[part[0]] + kCount[part[0]]; ++x)
-        for (int y = kFirst[part[1]]; y < kFirst[part[1]] + kCount[part[1]]; ++y) {
-          const int z = kFirst[part[2]];
-          float* to = &values[haloIndex(x, y, z)];
-          if (leaf == nullptr) {
-            std::fill_n(to, kCount[part[2]], tile);
-          } else {
-            const auto offset = static_cast<openvdb::Index>((x & 7) << 6 | (y & 7) << 3 | (z & 7));
-            for (int k = 0; k < kCount[part[2]]; ++k) to[k] = mReader.value(stored[offset + k]);
+      mStride = leaf == nullptr ? 0 : kBlockSize;
+      if (leaf == nullptr) mTile.fill(accessor.getValue(origin));
+      mValues = leaf == nullptr ? mTile.data() : mLeaf.read(*leaf);
+    }
+    [[nodiscard]] const ValueT* at(int x, int y) const { return mValues + mStride * ((x & 7) * kBlockSize + (y & 7)); }
+
+   private:
+    const ValueT* mValues = nullptr;
+    int mStride = 0;
+    std::array<ValueT, kBlockSize> mTile;
+    LeafValues<LeafT> mLeaf;
+  };
+
+  void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
+    const HaloRows needed(edges);
+    Accessor accessor(mGrid->tree());
+    for (int px = -1; px <= 1; ++px)
+      for (int py = -1; py <= 1; ++py) {
+        // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
+        constexpr std::array<int, 3> kFirst{-1, 0, 8}, kEnd{0, 8, 10};
+        const int endX = kEnd[px + 1], firstY = kFirst[py + 1], endY = kEnd[py + 1];
+        if (!needed.any(kFirst[px + 1], endX, firstY, endY)) continue;
+        std::array<Rows, 3> rows;
+        for (int pz = 0; pz < 3; ++pz)
+          if (pz != 0 || needed.below())
+            rows[pz].find(accessor, openvdb::Coord((block[0] + px) * kBlockSize, (block[1] + py) * kBlockSize,
+                                                   (block[2] + pz - 1) * kBlockSize));
+        for (int x = kFirst[px + 1]; x < endX; ++x)
+          for (int y = firstY; y < endY; ++y) {
+            if (!needed.row(x, y)) continue;
+            float* to = &halo.value[Halo::index(x, y, -1)];
+            if (needed.below()) mReader.template copy<1>(rows[0].at(x, y) + 7, to);
+            mReader.template copy<8>(rows[1].at(x, y), to + 1);
+            mReader.template copy<2>(rows[2].at(x, y), to + 9);
           }
-        }
-    }
+      }
   }
 
-  /// Where the linear function with values v0 and v1 at the ends is zero.
-  static float crossing(float v0, float v1) {
-    const float t = v0 / (v0 - v1);
-    return t >= 0 && t <= 1 ? t : 0.5F;  // NaN: an end is not finite, or both are zero to single precision.
-  }
-
-  /// True for values that a slope may be taken from.
-  [[nodiscard]] bool usable(float v) const { return v > mLow && v < mHigh; }
-
-  /// Slope at p along a lattice direction: central, or one-sided where a neighbour is clamped.
-  [[nodiscard]] float slope(const float* p, int step) const {
-    const float below = p[-step], here = p[0], above = p[step];
-    const bool useBelow = usable(below), useAbove = usable(above);
-    if (useBelow == useAbove) return useBelow || !usable(here) ? 0.5F * (above - below) : 0.0F;
-    if (!usable(here)) return 0.5F * (above - below);
-    return useBelow ? here - below : above - here;
-  }
-
-  /// Gradient in lattice units, at t along the edge from p: of the trilinear interpolant, averaged over the four cells
-  /// there.
-  [[nodiscard]] Vec3d gradient(const float* p, int axis, float t) const {
-    const float* q = p + kHaloStep[axis];
-    Vec3d g;
-    g[axis] = q[0] - p[0];
-    for (int k = 1; k < 3; ++k) {
-      const int other = (axis + k) % 3, step = kHaloStep[other];
-      g[other] = (1 - t) * slope(p, step) + t * slope(q, step);
-    }
-    return g;
+  static Mat3f toFloat(const Mat3d& m) {
+    return {{vecCast<float>(m.row[0]), vecCast<float>(m.row[1]), vecCast<float>(m.row[2])}};
   }
 
   typename GridT::ConstPtr mGrid;
+  GridReading mReading;
   ValueReader<ValueT> mReader;
   float mLow, mHigh;
 };
@@ -212,7 +268,8 @@ std::unique_ptr<const GridSampler> tryMake(const openvdb::GridBase::ConstPtr& gr
 
 }  // namespace
 
-std::unique_ptr<const GridSampler> makeGridSampler(openvdb::GridBase::ConstPtr grid, const GridReading& reading) {
+std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid,
+                                                   const GridReading& reading) {
   if (auto s = tryMake<openvdb::FloatGrid>(grid, reading)) return s;
   if (auto s = tryMake<openvdb::DoubleGrid>(grid, reading)) return s;
   if (auto s = tryMake<openvdb::Int32Grid>(grid, reading)) return s;

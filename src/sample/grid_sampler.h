@@ -28,6 +28,6 @@ class GridSampler {
 };
 
 /// \returns null if the grid's type is not one of float, double, int32, int64, bool.
-std::unique_ptr<const GridSampler> makeGridSampler(openvdb::GridBase::ConstPtr grid, const GridReading& reading);
+std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid, const GridReading& reading);
 
 }  // namespace pdc::detail

@@ -57,7 +57,7 @@ struct GridSource::Impl {
   std::unique_ptr<const detail::GridSampler> sampler;
 };
 
-GridSource::GridSource(openvdb::GridBase::ConstPtr grid, const GridSourceOptions& options) {
+GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options) {
   if (!grid) throw std::invalid_argument("GridSource: the grid is null");
   if (options.iso && !std::isfinite(*options.iso)) throw Error("the isovalue must be finite");
   const openvdb::GridClass gridClass = grid->getGridClass();
@@ -78,7 +78,7 @@ GridSource::GridSource(openvdb::GridBase::ConstPtr grid, const GridSourceOptions
   auto sampler = detail::makeGridSampler(grid, reading);
   if (!sampler)
     throw Error("grid of type " + grid->valueType() + " cannot be contoured; float, double, int32, int64 and bool can");
-  mImpl.reset(new Impl{reading, makeMap(grid->transform()), std::move(sampler)});
+  mImpl = std::make_unique<Impl>(Impl{reading, makeMap(grid->transform()), std::move(sampler)});
 }
 
 GridSource::~GridSource() = default;

@@ -155,7 +155,7 @@ TEST(Contour, StopsWhenAsked) {
   const Monitor monitor{.progress = {}, .stop = &stop};
   EXPECT_THROW((void)contour(source(sphere({}, 0.5), 64), {}, nullptr, monitor), Cancelled);
   // In the middle of each stage.
-  for (const std::string stage : {"count", "solve", "faces"}) {
+  for (const std::string stage : {"count", "contour"}) {
     stop = false;
     const Monitor late{.progress = [&](const char* name, double) { stop = stop || name == stage; }, .stop = &stop};
     EXPECT_THROW((void)contour(source(sphere({}, 0.9), 200), {}, nullptr, late), Cancelled) << stage;
@@ -172,7 +172,7 @@ TEST(Contour, ProgressReachesTheEndOfEveryStage) {
     if (share == 1) finished.insert(stage);
   }};
   (void)contour(source(sphere({}, 0.5), 64), {}, nullptr, monitor);
-  for (const char* stage : {"count", "solve", "faces"}) EXPECT_TRUE(finished.contains(stage)) << stage;
+  for (const char* stage : {"count", "contour"}) EXPECT_TRUE(finished.contains(stage)) << stage;
 }
 
 TEST(Contour, AnEmptySourceGivesAnEmptyMesh) {

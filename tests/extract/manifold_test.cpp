@@ -2,9 +2,8 @@
 
 #include <random>
 
-#include "extract/block_faces.h"
 #include "extract/block_topology.h"
-#include "extract/block_vertices.h"
+#include "extract/fill_mesh.h"
 #include "extract/sign_source.h"
 #include "pdc/extract/contour.h"
 #include "pdc/mesh/mesh_report.h"
@@ -49,12 +48,7 @@ Mesh contourWithoutRule(const SignSource& source) {
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   const detail::Topology topology = detail::buildTopology(blocks, {}, detail::FlipRule::kNever);
   Mesh mesh;
-  mesh.positions.resize(topology.vertexCount);
-  mesh.quads.resize(topology.quadCount);
-  Buffer<detail::VertexError> errors(topology.vertexCount);
-  detail::solveVertices(source, blocks, topology, detail::VertexSolver(0.1, Placement::kCell),
-                        {mesh.positions.data(), nullptr, errors.data()}, {});
-  detail::writeFaces(blocks, topology, errors.data(), false, mesh.quads.data(), nullptr, {});
+  detail::fillMesh(source, blocks, topology, {.sigmaNormal = 0.1}, mesh, {});
   return mesh;
 }
 

@@ -30,7 +30,7 @@ struct GridSourceOptions {
 /// while the source lives. \throws Error for other value types, singular or unsupported transforms.
 class GridSource final : public HermiteSource {
  public:
-  explicit GridSource(openvdb::GridBase::ConstPtr grid, const GridSourceOptions& options = {});
+  explicit GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options = {});
   ~GridSource() override;
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;

@@ -18,14 +18,6 @@ inline constexpr int kBlockPoints = kBlockSize + 1;  ///< Lattice points per blo
 /// A lattice point, a cell, or a block coordinate.
 using Coord = std::array<std::int32_t, 3>;
 
-/// Number of set bits of each 9-bit row: without a processor's own instruction a table is the quickest way to count.
-inline constexpr auto kBitCount = [] {
-  std::array<std::uint8_t, 512> count{};
-  for (unsigned bits = 1; bits < count.size(); ++bits)
-    count[bits] = static_cast<std::uint8_t>(count[bits >> 1] + (bits & 1));
-  return count;
-}();
-
 /// 512 bits, one per cell (or per lattice edge owned by the cell of the same name); z runs fastest: word x, bit 8y + z.
 struct CellMask {
   std::array<std::uint64_t, kBlockSize> word{};
@@ -79,38 +71,45 @@ class EdgeIndex {
   explicit EdgeIndex(const BlockSigns& signs);
 
   /// Number of sign-changing edges.
-  [[nodiscard]] int size() const { return mSize; }
-  /// Sign-changing edges along `axis` whose lower end is in row (x, y); bit z.
-  [[nodiscard]] std::uint16_t row(int axis, int x, int y) const { return mRow[axis][kBlockPoints * x + y]; }
+  [[nodiscard]] int size() const { return mStart[3]; }
+  /// The edges along `axis` are numbers begin(axis) to begin(axis + 1) - 1.
+  [[nodiscard]] int begin(int axis) const { return mStart[axis]; }
+  /// Lower end points of all edges, as 256x + 16y + z.
+  [[nodiscard]] const std::uint16_t* points() const { return mPoint.data(); }
   /// Number of the edge along `axis` from (x, y, z); meaningful only if it changes sign.
-  [[nodiscard]] int operator()(int axis, int x, int y, int z) const {
-    const int r = kBlockPoints * x + y;
-    return mStart[axis][r] + kBitCount[mRow[axis][r] & ((1u << z) - 1u)];
-  }
+  [[nodiscard]] int operator()(int axis, int x, int y, int z) const { return mNumber[slot(axis, x, y, z)]; }
   /// Calls visit(number, axis, x, y, z) for each sign-changing edge in order.
   template <typename Visit>
   void forEach(Visit&& visit) const {
-    int n = 0;
     for (int axis = 0; axis < 3; ++axis)
-      for (int x = 0; x < kBlockPoints; ++x)
-        for (int y = 0; y < kBlockPoints; ++y)
-          for (unsigned bits = row(axis, x, y); bits != 0; bits &= bits - 1)
-            visit(n++, axis, x, y, std::countr_zero(bits));
+      for (int i = mStart[axis]; i < mStart[axis + 1]; ++i)
+        visit(i, axis, mPoint[i] >> 8, mPoint[i] >> 4 & 15, mPoint[i] & 15);
   }
 
+  /// Where numbers() holds the number of an edge.
+  [[nodiscard]] static constexpr int slot(int axis, int x, int y, int z) {
+    return ((axis * kBlockPoints + x) * kBlockPoints + y) * kBlockPoints + z;
+  }
+  /// By slot; meaningful only for edges that change sign.
+  [[nodiscard]] const std::uint16_t* numbers() const { return mNumber.data(); }
+
  private:
-  std::array<std::array<std::uint16_t, kBlockPoints * kBlockPoints>, 3> mRow{};
-  std::array<std::array<std::uint16_t, kBlockPoints * kBlockPoints>, 3> mStart{};
-  int mSize = 0;
+  // Neither array is cleared: a block uses little of them.
+  std::array<std::uint16_t, kMaxEdges> mPoint;
+  std::array<std::uint16_t, 3 * kBlockPoints * kBlockPoints * kBlockPoints> mNumber;
+  std::array<int, 4> mStart{};
 };
 
 /// Hermite data of one block: for each sign-changing edge, in EdgeIndex order, where the surface crosses and with which
-/// normal. Structure of arrays, reused from block to block.
+/// normal. Structure of arrays, reused from block to block; a source may write anything beyond the last edge.
 struct HermiteBlock {
+  /// Room for whole vector registers.
+  static constexpr int kCapacity = EdgeIndex::kMaxEdges + 16;
+
   /// Position of the crossing along its edge, from the lower end, in [0, 1].
-  std::array<float, EdgeIndex::kMaxEdges> t;
+  std::array<float, kCapacity> t;
   /// Outward unit normal in world space; zero where none could be found (the crossing then counts as a point only).
-  std::array<float, EdgeIndex::kMaxEdges> nx, ny, nz;
+  std::array<float, kCapacity> nx, ny, nz;
 };
 
 }  // namespace pdc

@@ -21,8 +21,8 @@ class HermiteSource {
  public:
   virtual ~HermiteSource() = default;
 
-  /// All blocks with a sign change, each once, in an order that does not depend on threads. Signs of points that two
-  /// blocks share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
+  /// All blocks with a sign change, each once, sorted by coordinate (x, then y, then z). Signs of points that two blocks
+  /// share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
   /// blocks are there (unless no cell of the other one takes part). Runs in parallel on the calling thread's arena.
   /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;

@@ -1,0 +1,82 @@
+#include "extract/fill_mesh.h"
+
+#include <tbb/combinable.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "extract/block_faces.h"
+#include "extract/block_progress.h"
+#include "extract/vertex_solver.h"
+
+namespace pdc::detail {
+namespace {
+
+/// Blocks per thread and window: enough that threads seldom wait for each other, few enough that two windows' vertices
+/// (about 64 a block, 48 bytes each) stay in a second-level cache.
+constexpr std::size_t kWindowBlocks = 256;
+
+/// Ends of windows: runs of whole slabs of blocks with the same x.
+std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
+  const std::size_t least = kWindowBlocks * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  std::vector<std::size_t> ends;
+  for (std::size_t begin = 0; begin < blocks.size();) {
+    std::size_t end = std::min(begin + least, blocks.size());
+    end = static_cast<std::size_t>(std::upper_bound(blocks.begin() + static_cast<std::ptrdiff_t>(end) - 1, blocks.end(),
+                                                    blocks[end - 1],
+                                                    [](const Coord& a, const Coord& b) { return a[0] < b[0]; }) -
+                                   blocks.begin());
+    ends.push_back(end);
+    begin = end;
+  }
+  return ends;
+}
+
+}  // namespace
+
+VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
+                      const ContourOptions& options, Mesh& mesh, const Monitor& monitor, SimdLevel level) {
+  mesh.positions.resize(topology.vertexCount);
+  if (options.normals) mesh.normals.resize(topology.vertexCount);
+  options.triangles ? mesh.triangles.resize(2 * topology.quadCount) : mesh.quads.resize(topology.quadCount);
+  const VertexSolver solver(options.sigmaNormal, options.placement);
+  tbb::enumerable_thread_specific<BlockVertexSolver> solvers([&] { return BlockVertexSolver(source, solver, level); });
+  tbb::combinable<VertexCounts> counts;
+  const BlockFaceWriter faces(blocks, topology, source.map().mirrored(),
+                              options.triangles ? nullptr : mesh.quads.data(),
+                              options.triangles ? mesh.triangles.data() : nullptr, level);
+  BlockProgress progress(monitor, "contour", blocks.coords.size());
+
+  Buffer<VertexError> current, previous;
+  std::uint64_t currentFirst = 0, previousFirst = 0;
+  std::size_t begin = 0;
+  for (const std::size_t end : windowEnds(blocks.coords)) {
+    const std::uint64_t next = end < blocks.coords.size() ? topology.blocks[end].firstVertex : topology.vertexCount;
+    current.swap(previous);
+    previousFirst = currentFirst;
+    currentFirst = topology.blocks[begin].firstVertex;
+    if (current.size() < next - currentFirst) current.resize(next - currentFirst);
+    const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, current.data(),
+                           currentFirst};
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
+      monitor.throwIfStopped();
+      BlockVertexSolver& block = solvers.local();
+      VertexCounts& count = counts.local();
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        block.run(blocks.coords[i], blocks.signs[i], topology.blocks[i], out, count);
+    });
+    const ErrorWindow errors{previous.data(), current.data(), previousFirst, currentFirst};
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors);
+      progress.advance(range.size());
+    });
+    begin = end;
+  }
+  VertexCounts total;
+  counts.combine_each([&](const VertexCounts& c) { total += c; });
+  return total;
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+
+#include "pdc/math/mat3.h"
+#include "pdc/math/simd_level.h"
+#include "pdc/sample/hermite_block.h"
+
+namespace pdc::detail {
+
+/// A block's points and their neighbours, points -1 to 9 on each axis, as values that are negative inside.
+struct Halo {
+  static constexpr int kPoints = kBlockPoints + 2;
+  static constexpr std::array<int, 3> kStep{kPoints * kPoints, kPoints, 1};
+
+  static constexpr int index(int x, int y, int z) { return (kPoints * (x + 1) + y + 1) * kPoints + z + 1; }
+
+  std::array<float, kPoints * kPoints * kPoints> value;
+};
+
+/// The rows along z of a halo that hold what a block's crossings need.
+class HaloRows {
+ public:
+  explicit HaloRows(const EdgeIndex& edges);
+
+  [[nodiscard]] bool row(int x, int y) const { return (mRows[x + 1] >> (y + 1) & 1) != 0; }
+  /// Any row in [beginX, endX) × [beginY, endY).
+  [[nodiscard]] bool any(int beginX, int endX, int beginY, int endY) const;
+  /// Whether the points at z = -1 are needed.
+  [[nodiscard]] bool below() const { return mBelow; }
+
+ private:
+  std::array<unsigned, Halo::kPoints> mRows{};  ///< By x + 1; bit y + 1.
+  bool mBelow = false;
+};
+
+/// Values strictly between the two may enter a slope; others are clamped or not finite.
+struct SlopeLimits {
+  float low, high;
+};
+
+/// Fills crossings and normals of a block from its points: the crossing where the linear function along the edge is
+/// zero; as normal, `normalMap` times the gradient of the trilinear interpolant, averaged over the four cells there.
+/// \param level changes no bit of it.
+void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& limits, const Mat3<float>& normalMap,
+                  HermiteBlock& hermite, SimdLevel level = bestSimdLevel());
+
+}  // namespace pdc::detail

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tree/ValueAccessor.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <vector>
+
+#include "pdc/monitor.h"
+#include "sample/block_index.h"
+#include "sample/grid_leaves.h"
+
+namespace pdc::detail {
+
+/// Finds tiles that lie on the other side of the isovalue than the background, beside blocks that do not: where a
+/// surface can pass without touching any leaf.
+template <typename TreeT>
+class TileFaces {
+ public:
+  using Reader = ValueReader<typename TreeT::ValueType>;
+
+  TileFaces(const TreeT& tree, const Reader& reader)
+      : mTree(tree), mReader(reader), mBackground(reader.inside(tree.background())) {}
+
+  /// Appends the blocks whose cells may hold such surface, in any order; may append a block more than once. \throws
+  /// Error if a tile lies too far out.
+  void find(const Monitor& monitor, std::vector<Coord>& blocks) const {
+    findAroundLargeTiles(monitor, blocks);
+    std::vector<const Parent*> parents;
+    mTree.getNodes(parents);
+    for (const Parent* p : parents) checkIndex(p->origin());
+    tbb::enumerable_thread_specific<std::vector<Coord>> found;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parents.size(), 4), [&](const auto& range) {
+      monitor.throwIfStopped();
+      Accessor accessor(mTree);
+      for (std::size_t i = range.begin(); i != range.end(); ++i) findInParent(*parents[i], accessor, found.local());
+    });
+    for (const std::vector<Coord>& part : found) blocks.insert(blocks.end(), part.begin(), part.end());
+  }
+
+ private:
+  using Parent = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
+  using Accessor = openvdb::tree::ValueAccessor<const TreeT>;
+  static constexpr int kTiles = 1 << Parent::LOG2DIM;  ///< Leaf-sized tiles per axis of a leaf's parent.
+
+  /// Cells about the lattice edges that leave block b along `axis`.
+  static void addCellsAt(const Coord& b, int axis, std::vector<Coord>& blocks) {
+    for (int i = 0; i < 4; ++i) {
+      Coord c = b;
+      c[(axis + 1) % 3] -= i & 1;
+      c[(axis + 2) % 3] -= i >> 1;
+      blocks.push_back(c);
+    }
+  }
+
+  /// Block b beside a tile, beyond its high or low side along `axis`. Cells beside a leaf are found from the leaf.
+  void visit(const Coord& b, int axis, bool high, Accessor& accessor, std::vector<Coord>& blocks) const {
+    const openvdb::Coord p(b[0] * kBlockSize, b[1] * kBlockSize, b[2] * kBlockSize);
+    if (accessor.probeConstLeaf(p) != nullptr || mReader.inside(accessor.getValue(p)) != mBackground) return;
+    Coord lower = b;
+    lower[axis] -= high;
+    addCellsAt(lower, axis, blocks);
+  }
+
+  void findAroundLargeTiles(const Monitor& monitor, std::vector<Coord>& blocks) const {
+    Accessor accessor(mTree);
+    auto it = mTree.cbeginValueAll();
+    it.setMaxDepth(TreeT::ValueAllCIter::LEAF_DEPTH - 2);
+    for (; it; ++it) {
+      if (mReader.inside(*it) == mBackground) continue;
+      openvdb::CoordBBox box;
+      it.getBoundingBox(box);
+      checkIndex(box.min());
+      checkIndex(box.max());
+      const Coord low = blockOf({box.min().x(), box.min().y(), box.min().z()});
+      const Coord high = blockOf({box.max().x(), box.max().y(), box.max().z()});
+      for (int axis = 0; axis < 3; ++axis)
+        for (const bool upper : {false, true}) {
+          monitor.throwIfStopped();
+          Coord from = low, to = high;
+          from[axis] = to[axis] = upper ? high[axis] + 1 : low[axis] - 1;
+          for (Coord b = from; b[0] <= to[0]; ++b[0])
+            for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
+              for (b[2] = from[2]; b[2] <= to[2]; ++b[2]) visit(b, axis, upper, accessor, blocks);
+        }
+    }
+  }
+
+  /// What is known of the leaf-sized children of a node without looking into them.
+  enum class Child : std::uint8_t { kLeaf, kBackground, kOther };
+
+  void findInParent(const Parent& node, Accessor& accessor, std::vector<Coord>& blocks) const {
+    constexpr int n = kTiles;
+    std::array<Child, n * n * n> child;
+    bool any = false;
+    const auto* table = node.getTable();
+    for (openvdb::Index i = 0; i < Parent::NUM_VALUES; ++i) {
+      child[i] = node.isChildMaskOn(i)                                ? Child::kLeaf
+                 : mReader.inside(table[i].getValue()) == mBackground ? Child::kBackground
+                                                                      : Child::kOther;
+      any = any || child[i] == Child::kOther;
+    }
+    if (!any) return;
+    const Coord origin = blockOf({node.origin().x(), node.origin().y(), node.origin().z()});
+    for (int i = 0; i < n * n * n; ++i) {
+      if (child[i] != Child::kOther) continue;
+      const std::array<int, 3> at{i / (n * n), i / n % n, i % n};
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int step : {-1, 1}) {
+          constexpr std::array<int, 3> kStride{n * n, n, 1};
+          const int there = at[axis] + step;
+          const bool within = there >= 0 && there < n;
+          if (within && child[i + step * kStride[axis]] != Child::kBackground) continue;
+          Coord b{origin[0] + at[0], origin[1] + at[1], origin[2] + at[2]};
+          b[axis] += step;
+          visit(b, axis, step > 0, accessor, blocks);
+        }
+    }
+  }
+
+  const TreeT& mTree;
+  const Reader& mReader;
+  bool mBackground;
+};
+
+}  // namespace pdc::detail
