@@ -1,6 +1,5 @@
 #include "pdc/mesh/mesh_report.h"
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
@@ -8,19 +7,21 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "pdc/error.h"
+#include "mesh/faces.h"
 
 namespace pdc {
 namespace {
 
 using Index = std::uint32_t;
+using detail::face;
+using detail::faceCount;
+using detail::isFinite;
 
 /// Grain of all reductions: sums are split the same way whatever the number of threads.
 constexpr std::size_t kGrain = 4096;
@@ -41,32 +42,6 @@ Value sumOver(std::size_t count, Visit&& visit) {
         return sum;
       },
       [](Value a, const Value& b) { return a += b; });
-}
-
-std::size_t faceCount(const Mesh& mesh) { return mesh.quads.size() + mesh.triangles.size(); }
-
-/// Quads first, then triangles.
-std::span<const Index> face(const Mesh& mesh, std::size_t i) {
-  if (i < mesh.quads.size()) return mesh.quads[i];
-  return mesh.triangles[i - mesh.quads.size()];
-}
-
-void checkIndices(const Mesh& mesh) {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  const std::size_t vertices = mesh.positions.size();
-  const std::size_t first = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, faceCount(mesh), kGrain), kNone,
-      [&](const tbb::blocked_range<std::size_t>& range, std::size_t found) {
-        for (std::size_t i = range.begin(); i != range.end() && found == kNone; ++i)
-          for (const Index v : face(mesh, i))
-            if (v >= vertices) found = i;
-        return found;
-      },
-      [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (first == kNone) return;
-  const auto corners = face(mesh, first);
-  throw Error(fmt::format("face {} names vertex {}, but the mesh has {} vertices", first,
-                          *std::max_element(corners.begin(), corners.end()), vertices));
 }
 
 Buffer<Corner> sortedCorners(const Mesh& mesh) {
@@ -259,8 +234,6 @@ std::size_t countComponents(const Mesh& mesh, const Buffer<Corner>& corners) {
   });
 }
 
-bool isFinite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
 struct Bounds {
   Vec3d lo{kMax, kMax, kMax}, hi{-kMax, -kMax, -kMax};
   static constexpr double kMax = std::numeric_limits<double>::max();
@@ -309,7 +282,7 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 }  // namespace
 
 MeshReport analyze(const Mesh& mesh) {
-  checkIndices(mesh);
+  detail::checkIndices(mesh);
   MeshReport report;
   report.vertices = mesh.positions.size();
   report.quads = mesh.quads.size();
