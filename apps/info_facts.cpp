@@ -8,7 +8,6 @@
 #include "pdc/io/mesh_reader.h"
 #include "pdc/io/scene_reader.h"
 #include "pdc/io/vdb_reader.h"
-#include "pdc/mesh/mesh_report.h"
 
 namespace pdc {
 namespace {
@@ -69,8 +68,20 @@ Json sceneFacts(const std::filesystem::path& path) {
   return facts;
 }
 
-Json meshFacts(const std::filesystem::path& path) {
-  const MeshReport report = analyze(readMesh(path));
+Json factsByKind(const std::filesystem::path& path) {
+  switch (inputKind(path)) {
+    case InputKind::kGrid:
+      return gridFacts(path);
+    case InputKind::kScene:
+      return sceneFacts(path);
+    default:
+      return meshFacts(analyze(readMesh(path)));
+  }
+}
+
+}  // namespace
+
+Json meshFacts(const MeshReport& report) {
   return {{"kind", "mesh"},
           {"vertices", report.vertices},
           {"quads", report.quads},
@@ -91,19 +102,6 @@ Json meshFacts(const std::filesystem::path& path) {
           {"bounds_lo", toJson(report.bounds.lo)},
           {"bounds_hi", toJson(report.bounds.hi)}};
 }
-
-Json factsByKind(const std::filesystem::path& path) {
-  switch (inputKind(path)) {
-    case InputKind::kGrid:
-      return gridFacts(path);
-    case InputKind::kScene:
-      return sceneFacts(path);
-    default:
-      return meshFacts(path);
-  }
-}
-
-}  // namespace
 
 Json gatherFacts(const std::filesystem::path& path) {
   Json facts{{"file", path.string()}};

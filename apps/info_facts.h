@@ -3,10 +3,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "pdc/mesh/mesh_report.h"
+
 namespace pdc {
 
 /// What `pdc info` says about a file: the grids of a .vdb, the box and lattice of a scene, or the report on a mesh.
 /// \throws Error for files that cannot be read.
 [[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
+
+/// The part of it about a mesh.
+[[nodiscard]] nlohmann::ordered_json meshFacts(const MeshReport& report);
 
 }  // namespace pdc

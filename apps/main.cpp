@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "check_command.h"
 #include "info_command.h"
 #include "interrupt.h"
 #include "mesh_command.h"
@@ -22,12 +23,13 @@ int fail(int exitCode, std::string message) {
   return exitCode;
 }
 
-void run(int argc, char** argv) {
+/// Returns the exit code.
+int run(int argc, char** argv) {
   CLI::App app("Turns volumes (OpenVDB grids, implicit scenes) into meshes.", "pdc");
   app.set_version_flag("--version", "pdc " PDC_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n"
+      "Exit codes: 0 done, 1 failed (or not clean), 2 wrong usage, 130 interrupted.\n"
       "`pdc COMMAND --help` lists the options of a command.");
 
   pdc::MeshRequest mesh;
@@ -37,15 +39,20 @@ void run(int argc, char** argv) {
   pdc::InfoRequest info;
   CLI::App* infoCommand = app.add_subcommand("info", "Say what is in a grid file, a scene or a mesh");
   pdc::addInfoOptions(*infoCommand, info);
+  pdc::CheckRequest check;
+  CLI::App* checkCommand = app.add_subcommand("check", "Say whether a mesh is clean, and what is wrong with it");
+  pdc::addCheckOptions(*checkCommand, check);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     app.exit(help);
-    return;
+    return kDone;
   }
   if (meshCommand->parsed()) pdc::runMesh(mesh);
   if (infoCommand->parsed()) pdc::runInfo(info);
+  if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
+  return kDone;
 }
 
 }  // namespace
@@ -53,9 +60,9 @@ void run(int argc, char** argv) {
 int main(int argc, char** argv) {
   pdc::installInterruptHandler();
   try {
-    run(argc, argv);
+    const int exitCode = run(argc, argv);
     if (std::fflush(stdout) != 0) return fail(kFailed, "cannot write to standard output");
-    return kDone;
+    return exitCode;
   } catch (const CLI::ParseError& e) {
     return fail(kUsage, std::string(e.what()) + " (see pdc --help)");
   } catch (const pdc::Cancelled&) {

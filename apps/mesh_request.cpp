@@ -13,7 +13,6 @@ namespace {
 
 // FieldSource's own limit on voxels per axis.
 constexpr int kMaxResolution = 1 << 20;
-constexpr int kMaxThreads = 4096;
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   const auto finite = [](double v) { return std::isfinite(v); };
@@ -85,9 +84,7 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("FILE")
       ->group(group);
   command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
-  addInteger(command, "--threads", request.threads, 0, kMaxThreads, "0 is all (0); the result does not depend on it")
-      ->type_name("N")
-      ->group(group);
+  addThreads(command, request.threads)->group(group);
 }
 
 void checkMeshRequest(const MeshRequest& request) {

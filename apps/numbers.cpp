@@ -44,4 +44,10 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optiona
   return command.add_option_function<std::string>(name, take, help);
 }
 
+CLI::Option* addThreads(CLI::App& command, std::optional<int>& target) {
+  constexpr int kMaxThreads = 4096;
+  return addInteger(command, "--threads", target, 0, kMaxThreads, "0 is all (0); the result does not depend on it")
+      ->type_name("N");
+}
+
 }  // namespace pdc

@@ -16,4 +16,7 @@ CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<d
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
                         const std::string& help);
 
+/// The option --threads, the same for all commands.
+CLI::Option* addThreads(CLI::App& command, std::optional<int>& target);
+
 }  // namespace pdc

@@ -1,16 +1,13 @@
 #include "pdc/extract/contour.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 #include "extract/block_topology.h"
 #include "extract/fill_mesh.h"
+#include "with_threads.h"
 
 namespace pdc {
 namespace {
@@ -41,13 +38,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
 Mesh contour(const HermiteSource& source, const ContourOptions& options, ContourReport* report,
              const Monitor& monitor) {
   checkOptions(options);
-  if (options.threads == 0) return run(source, options, report, monitor);
-  // More threads than processors have to be allowed first; TBB would warn on standard error otherwise.
-  std::optional<tbb::global_control> allow;
-  if (options.threads > tbb::info::default_concurrency())
-    allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  tbb::task_arena arena(options.threads);
-  return arena.execute([&] { return run(source, options, report, monitor); });
+  return detail::withThreads(options.threads, [&] { return run(source, options, report, monitor); });
 }
 
 }  // namespace pdc

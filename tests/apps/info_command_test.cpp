@@ -114,7 +114,8 @@ TEST(Program, HelpAndVersion) {
   const Outcome version = runPdc({"--version"});
   EXPECT_EQ(version.exitCode, 0);
   EXPECT_EQ(version.out.rfind("pdc 0.", 0), 0U) << version.out;
-  for (const Arguments& arguments : {Arguments{"--help"}, Arguments{"mesh", "--help"}, Arguments{"info", "--help"}}) {
+  for (const Arguments& arguments :
+       {Arguments{"--help"}, Arguments{"mesh", "--help"}, Arguments{"info", "--help"}, Arguments{"check", "--help"}}) {
     const Outcome help = runPdc(arguments);
     EXPECT_EQ(help.exitCode, 0);
     EXPECT_EQ(help.err, "");
