@@ -62,12 +62,28 @@ std::vector<std::string> TemporaryFolder::entries() const {
   return names;
 }
 
+namespace {
+
+/// Waits until the process catches SIGINT; before that the signal would end it like any other program.
+void waitUntilInterruptible(pid_t pid) {
+  constexpr unsigned long long kInterrupt = 1ull << (SIGINT - 1);
+  for (int tries = 0; tries < 2000; ++tries) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) & kInterrupt) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace
+
 Outcome runPdc(const Arguments& arguments, const RunOptions& options) {
   const TemporaryFolder captured;
   const std::string out = options.standardOutput.empty() ? (captured / "out").string() : options.standardOutput;
   const pid_t pid = start(arguments, out, captured / "err");
   auto signalled = std::chrono::steady_clock::now();
   if (options.interruptAfter > 0) {
+    waitUntilInterruptible(pid);
     std::this_thread::sleep_for(std::chrono::duration<double>(options.interruptAfter));
     signalled = std::chrono::steady_clock::now();
     ::kill(pid, SIGINT);

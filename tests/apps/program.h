@@ -34,7 +34,7 @@ struct Outcome {
 using Arguments = std::vector<std::string>;
 
 struct RunOptions {
-  double interruptAfter = 0;        ///< Seconds after which it gets SIGINT; 0 for never.
+  double interruptAfter = 0;        ///< Seconds from when it catches SIGINT to when it gets it; 0 for never.
   std::string standardOutput = {};  ///< A file or device in place of the captured output.
 };
 

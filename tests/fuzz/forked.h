@@ -28,7 +28,7 @@ struct ForkedState {
 };
 
 inline void limitChild() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef PDC_SANITIZED  // Sanitizers reserve terabytes of addresses.
   constexpr rlim_t kAddressSpace = rlim_t{4} << 30;
   const rlimit limit{kAddressSpace, kAddressSpace};
   ::setrlimit(RLIMIT_AS, &limit);
