@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "input_kind.h"
 #include "numbers.h"
@@ -10,6 +11,9 @@
 
 namespace pdc {
 namespace {
+
+const std::map<std::string, Placement> kPlacements{
+    {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
 
 // FieldSource's own limit on voxels per axis.
 constexpr int kMaxResolution = 1 << 20;
@@ -26,9 +30,12 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
       "Assumed noise of the unit normals (0.05)")
       ->type_name("S|inf")
       ->group(group);
-  command.add_option("--placement", request.placement, "Vertices stay in their cell, or may leave it (cell)")
+  command
+      .add_option("--placement", request.placement,
+                  "Where vertices may lie (certified): free as far as no faces\n"
+                  "intersect, in their cell, or free without that promise")
       ->type_name("WHERE")
-      ->check(CLI::IsMember({"cell", "free"}))
+      ->check(CLI::IsMember(kPlacements))
       ->group(group);
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
@@ -67,7 +74,7 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
   return {.sigmaNormal = sigmaNormal.value_or(assumedSigma),
-          .placement = placement == "free" ? Placement::kFree : Placement::kCell,
+          .placement = kPlacements.at(placement),
           .triangles = triangles,
           .normals = normals,
           .threads = threads.value_or(0)};

@@ -15,7 +15,7 @@ struct MeshRequest {
   std::optional<std::string> grid, nan;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
-  std::string placement = "cell";
+  std::string placement = "certified";
   bool triangles = false, open = false, normals = false, ascii = false;
   bool requireSurface = false, quiet = false;
 

@@ -4,14 +4,11 @@
 #include <cstring>
 
 #include "extract/float4.h"
+#include "extract/quad_rings.h"
 #include "math/lane_loops.h"
 
 namespace pdc::detail {
 namespace {
-
-/// The four cells about a lattice edge along `axis`, counter-clockwise seen from its high end: steps back along the
-/// next axis and the one after.
-constexpr int kRing[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 Float4 load(const float* p) {
   Float4 v;
@@ -69,21 +66,37 @@ bool splitsAtFirst(const std::array<const VertexError*, 4>& error) {
   return !(dot(difference, S * total - h4) > 0);
 }
 
+/// Whether the lattice edge passes from behind to before the planes of both triangles of a quad that is split along the
+/// diagonal from corner 0 to 2, or 1 to 3: a quick test that may say no in vain, but not yes.
+template <int axis>
+bool passes(const std::array<const VertexError*, 4>& error, bool first) {
+  // For what rounding adds to, or takes from, volumes of the order of a cell's.
+  constexpr float kDoubt = 1e-3F;
+  std::array<Vec3f, 4> p;
+  for (int k = 0; k < 4; ++k) {
+    p[k] = error[k]->x + Vec3f{0.5F, 0.5F, 0.5F};
+    p[k][(axis + 1) % 3] -= static_cast<float>(kRing[k][0]);
+    p[k][(axis + 2) % 3] -= static_cast<float>(kRing[k][1]);
+  }
+  const auto crosses = [](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const Vec3f n = cross(b - a, c - a);
+    const float low = dot(n, a), high = n[axis] - low;
+    return low > kDoubt && high > kDoubt;
+  };
+  return first ? crosses(p[0], p[1], p[2]) && crosses(p[0], p[2], p[3])
+               : crosses(p[1], p[2], p[3]) && crosses(p[1], p[3], p[0]);
+}
+
 }  // namespace
 
 inline void BlockFaceWriter::write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const {
   const Quad q = splitsAtFirst ? (reversed ? Quad{v[0], v[3], v[2], v[1]} : v)
                                : (reversed ? Quad{v[1], v[0], v[3], v[2]} : Quad{v[1], v[2], v[3], v[0]});
-  if (mQuads != nullptr) {
-    mQuads[face] = q;
-  } else {
-    mTriangles[2 * face] = {q[0], q[1], q[2]};
-    mTriangles[2 * face + 1] = {q[0], q[2], q[3]};
-  }
+  mQuads[face] = q;
 }
 
 template <int axis>
-void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, std::uint64_t face) const {
+void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doubts* doubts, std::uint64_t face) const {
   constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const BlockTopology& own = mTopology.blocks[block];
   const BlockSigns& signs = mBlocks.signs[block];
@@ -103,17 +116,27 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, std:
         ring[k] = static_cast<std::uint32_t>(vertex);
         error[k] = &errors[vertex];
       }
-      write(ring, splitsAtFirst<axis>(error), signs.inside(x, y, z) == mMirrored, face++);
+      bool first = splitsAtFirst<axis>(error);
+      if (doubts != nullptr && !passes<axis>(error, first)) {
+        if (passes<axis>(error, !first)) {
+          first = !first;
+          ++doubts->forcedDiagonals;
+        } else {
+          doubts->quads.push_back(
+              {static_cast<std::int32_t>(block), static_cast<std::uint16_t>(512 * axis + 64 * x + bit)});
+        }
+      }
+      write(ring, first, signs.inside(x, y, z) == mMirrored, face++);
     }
 }
 
-void BlockFaceWriter::run(std::size_t block, const ErrorWindow& errors) const {
+void BlockFaceWriter::run(std::size_t block, const ErrorWindow& errors, Doubts* doubts) const {
   forEachBlock(mLevel, 1, [&](std::size_t) {
     const BlockTopology& own = mTopology.blocks[block];
     const auto x = own.firstQuad, y = x + own.edges[0].count(), z = y + own.edges[1].count();
-    runAxis<0>(block, errors, x);
-    runAxis<1>(block, errors, y);
-    runAxis<2>(block, errors, z);
+    runAxis<0>(block, errors, doubts, x);
+    runAxis<1>(block, errors, doubts, y);
+    runAxis<2>(block, errors, doubts, z);
   });
 }
 

@@ -19,34 +19,28 @@ struct ErrorWindow {
 };
 
 /// Writes the faces of blocks whose vertices and lower neighbours' vertices are solved: quad i of the topology to
-/// quads[i], or to triangles[2i] and [2i + 1]. Each starts at the corner that puts its diagonal where the summed
+/// quads[i]. Each starts at the corner that puts its diagonal where the summed
 /// quadric error of its vertices, taken at the diagonal's midpoint, is smaller: shorter or smaller diagonals cut
 /// creases off.
 class BlockFaceWriter {
  public:
-  /// \param mirrored the lattice map turns right-handed frames into left-handed ones. \param quads, triangles one of
-  /// them null.
-  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, bool mirrored, Quad* quads,
-                  Triangle* triangles, SimdLevel level)
-      : mBlocks(blocks),
-        mTopology(topology),
-        mMirrored(mirrored),
-        mQuads(quads),
-        mTriangles(triangles),
-        mLevel(level) {}
+  /// \param mirrored the lattice map turns right-handed frames into left-handed ones.
+  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, bool mirrored, Quad* quads, SimdLevel level)
+      : mBlocks(blocks), mTopology(topology), mMirrored(mirrored), mQuads(quads), mLevel(level) {}
 
-  void run(std::size_t block, const ErrorWindow& errors) const;
+  /// \param doubts null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
+  /// Such a quad is split along the other diagonal if that one passes.
+  void run(std::size_t block, const ErrorWindow& errors, Doubts* doubts) const;
 
  private:
   template <int axis>
-  void runAxis(std::size_t block, const ErrorWindow& errors, std::uint64_t face) const;
+  void runAxis(std::size_t block, const ErrorWindow& errors, Doubts* doubts, std::uint64_t face) const;
   void write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const;
 
   const SurfaceBlocks& mBlocks;
   const Topology& mTopology;
   bool mMirrored;
   Quad* mQuads;
-  Triangle* mTriangles;
   SimdLevel mLevel;
 };
 

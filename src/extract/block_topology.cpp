@@ -208,12 +208,13 @@ std::uint64_t BlockTopology::specialOffset(int cell, int edge) const {
 }
 
 Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, FlipRule rule) {
-  const BlockIndex index(blocks.coords);
   Topology t;
+  t.index = BlockIndex(blocks.coords);
   t.blocks.resize(blocks.coords.size());
   BlockProgress progress(monitor, "count", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) BlockCounter(blocks, index, rule, i, t.blocks[i]).run();
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      BlockCounter(blocks, t.index, rule, i, t.blocks[i]).run();
     progress.advance(range.size());
   });
   for (BlockTopology& b : t.blocks) {

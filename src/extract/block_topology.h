@@ -20,13 +20,6 @@ struct SpecialCell {
   EdgeVertices patch;  ///< Which surface patch each sign-changing edge belongs to; vertices of one patch coincide.
 };
 
-/// Number of set bits, without the instruction that plain x86-64 lacks.
-constexpr std::uint64_t bitCount(std::uint64_t v) {
-  v -= v >> 1 & 0x5555555555555555;
-  v = (v & 0x3333333333333333) + (v >> 2 & 0x3333333333333333);
-  return ((v + (v >> 4)) & 0x0F0F0F0F0F0F0F0F) * 0x0101010101010101 >> 56;
-}
-
 /// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its
 /// points.
 struct BlockTopology {
@@ -64,6 +57,7 @@ constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
 /// The topology of all blocks, with vertices and quads numbered through in block order.
 struct Topology {
   std::vector<BlockTopology> blocks;
+  BlockIndex index;
   std::uint64_t vertexCount = 0, quadCount = 0, openArcs = 0, multiVertexCells = 0;
 };
 

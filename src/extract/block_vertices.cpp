@@ -36,13 +36,28 @@ CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
   return CellMetric(J, std::cbrt(std::abs(J.determinant())));
 }
 
+/// Half the size of the part of a block's cells whose points stay well within the cell when their world coordinates are
+/// rounded to single precision.
+double cellHalfSize(const LatticeMap& map, const Vec3d& origin) {
+  const Vec3d p = map.position(origin + Vec3d{4, 4, 4});
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + 16 * map.voxelSize();
+  const Mat3d K = inverse(map.jacobian(origin));
+  double rounding = 0;
+  for (int i = 0; i < 3; ++i)
+    rounding =
+        std::max(rounding, (std::abs(K.row[i].x) + std::abs(K.row[i].y) + std::abs(K.row[i].z)) * largest * 0x1p-24);
+  return 0.5 - std::clamp(4 * rounding, kCellMargin, 0.25);
+}
+
 /// One block while its vertices are being solved.
 struct BlockState {
+  std::int32_t index;
   const BlockTopology& topology;
   const BlockSigns& signs;
   const EdgeIndex& edges;
   const CellMetric& metric;
   Vec3d origin;
+  double cellHalfSize;  ///< Of the part of a cell whose points stay in the cell when they are rounded.
   const VertexOutput& out;
   VertexCounts& counts;
 };
@@ -52,6 +67,7 @@ struct Waiting {
   Coord cell;
   unsigned edges;
   std::uint64_t vertex;
+  bool strict;  ///< See CellEntry.
 };
 
 /// The sign-changing edges of the patch that vertex v of a special cell belongs to.
@@ -72,7 +88,8 @@ unsigned patchEdges(const SpecialCell& special, unsigned present, int v) {
 /// Vertices wait in lanes until a register's worth of them can be solved at once, in single precision about their mass
 /// points. Those that leave their bounds, and all where σn is too small for single precision, are solved in double.
 struct BlockVertexSolver::Scratch {
-  Scratch(const LatticeMap& m, const VertexSolver& s, SimdLevel l) : map(m), solver(s), level(l) {}
+  Scratch(const LatticeMap& m, double sigmaNormal, double halfSize, SimdLevel l)
+      : map(m), solver(sigmaNormal, halfSize), level(l) {}
 
   void run(const BlockState& block) {
     fillCrossings(block);
@@ -82,13 +99,14 @@ struct BlockVertexSolver::Scratch {
     for (int x = 0; x < kBlockSize; ++x)
       for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
-        const unsigned present = kCellTable[cellCode(block.signs, x, y, z)].edges;
+        const CellEntry& entry = kCellTable[cellCode(block.signs, x, y, z)];
+        const unsigned present = entry.edges;
         const SpecialCell* special = topology.special.empty() ? nullptr : topology.findSpecial(64 * x + bit);
         if (special == nullptr) {
-          add(block, {x, y, z}, present, vertex++);
+          add(block, {{x, y, z}, present, vertex++, entry.strict});
         } else {
           for (int v = 0; v < special->vertexCount; ++v)
-            add(block, {x, y, z}, patchEdges(*special, present, v), vertex++);
+            add(block, {{x, y, z}, patchEdges(*special, present, v), vertex++, true});
         }
       }
     flush(block);
@@ -115,8 +133,8 @@ struct BlockVertexSolver::Scratch {
     });
   }
 
-  void add(const BlockState& block, const Coord& cell, unsigned edges, std::uint64_t vertex) {
-    waiting[lanes] = {cell, edges, vertex};
+  void add(const BlockState& block, const Waiting& w) {
+    waiting[lanes] = w;
     if (solver.batched()) sumPlanes(block, waiting[lanes], lanes);
     if (++lanes == kLanes) flush(block);
   }
@@ -167,7 +185,8 @@ struct BlockVertexSolver::Scratch {
       }
       const Vec3f v = mass[lane] + solution.x.get(lane);
       const float reach = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-      if (!(reach <= solver.halfSize())) {
+      const bool loose = block.out.doubts != nullptr && (w.strict || !(reach <= block.cellHalfSize));
+      if (loose || !(reach <= solver.halfSize())) {
         solveAlone(block, w);
         continue;
       }
@@ -185,13 +204,36 @@ struct BlockVertexSolver::Scratch {
     samples.size = 0;
     for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
       const Crossing& c = crossing[number[kEdgeSlot[std::countr_zero(bits)]]];
+      sampleAxis[samples.size] = edgeAxis(std::countr_zero(bits));
       samples.position[samples.size] = vecCast<double>(vec3(c.place)) - center;
       samples.row[samples.size++] = vecCast<double>(vec3(c.row));
     }
     const SolvedVertex v = solver.solve(samples, block.metric);
     block.counts.outOfCell += v.outOfCell;
     block.counts.moved += v.moved;
+    if (block.out.doubts != nullptr) doubt(block, w, v.x);
     write(block, w, {vecCast<float>(v.x), matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)});
+  }
+
+  /// Notes the vertex, whose samples are gathered, if it is loose.
+  void doubt(const BlockState& block, const Waiting& w, const Vec3d& x) {
+    const double reach = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    if (!w.strict && reach <= block.cellHalfSize) return;
+    Vec3d safe{};
+    if (w.strict) {
+      // Not where two patches may touch: crossings at the very ends of their edges.
+      constexpr double kInner = 0.49;
+      for (int i = 0; i < samples.size; ++i) {
+        Vec3d p = samples.position[i];
+        p[sampleAxis[i]] = std::clamp(p[sampleAxis[i]], -kInner, kInner);
+        safe += p * (1.0 / samples.size);
+      }
+    } else {
+      safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
+    }
+    for (int k = 0; k < 3; ++k) safe[k] = std::clamp(safe[k], -block.cellHalfSize, block.cellHalfSize);
+    const auto cell = static_cast<std::uint16_t>(64 * w.cell[0] + 8 * w.cell[1] + w.cell[2]);
+    block.out.doubts->vertices.push_back({w.vertex, block.index, cell, vecCast<float>(x), vecCast<float>(safe)});
   }
 
   static SymMat3<float> matrixCast(const SymMat3<double>& A) {
@@ -218,7 +260,7 @@ struct BlockVertexSolver::Scratch {
   }
 
   const LatticeMap& map;
-  const VertexSolver& solver;
+  const VertexSolver solver;
   const SimdLevel level;
   SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
   HermiteBlock hermite;
@@ -229,21 +271,33 @@ struct BlockVertexSolver::Scratch {
   SolutionLanes<float> solution;
   int lanes = 0;
   PatchSamples samples;
+  std::array<int, PatchSamples::kMax> sampleAxis;
 };
 
-BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, SimdLevel level)
-    : mSource(source), mSolver(solver), mScratch(std::make_unique<Scratch>(source.map(), solver, level)) {}
+BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, double sigmaNormal, double halfSize, SimdLevel level)
+    : mSource(source), mScratch(std::make_unique<Scratch>(source.map(), sigmaNormal, halfSize, level)) {}
 
 BlockVertexSolver::~BlockVertexSolver() = default;
 
-void BlockVertexSolver::run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology,
+void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, const Topology& topology,
                             const VertexOutput& out, VertexCounts& counts) {
+  const Coord& block = blocks.coords[index];
+  const BlockSigns& signs = blocks.signs[index];
   const EdgeIndex edges(signs);
   const Vec3d origin = toVec3d({block[0] * kBlockSize, block[1] * kBlockSize, block[2] * kBlockSize});
   const CellMetric metric = blockMetric(mSource.map(), origin);
-  mScratch->Sigma_n = Scratch::matrixCast(metric.G * (mSolver.sigma() * mSolver.sigma()));
+  const double sigma = mScratch->solver.sigma();
+  mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
   mSource.fillHermite(block, signs, edges, mScratch->hermite);
-  const BlockState state{topology, signs, edges, metric, origin, out, counts};
+  const BlockState state{static_cast<std::int32_t>(index),
+                         topology.blocks[index],
+                         signs,
+                         edges,
+                         metric,
+                         origin,
+                         cellHalfSize(mSource.map(), origin),
+                         out,
+                         counts};
   forEachBlock(mScratch->level, 1, [&](std::size_t) { mScratch->run(state); });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "extract/block_topology.h"
+#include "extract/loose_vertex.h"
 #include "extract/vertex_solver.h"
 #include "pdc/math/simd_level.h"
 
@@ -35,23 +36,25 @@ struct VertexOutput {
   Vec3f* normals;
   VertexError* errors;
   std::uint64_t firstError;
+  Doubts* doubts;  ///< Null: wherever a vertex comes to lie is right.
 };
 
 /// Samples and solves the vertices of one block after another. For one thread; large: keep it off the stack.
 class BlockVertexSolver {
  public:
-  BlockVertexSolver(const HermiteSource& source, const VertexSolver& solver, SimdLevel level);
+  /// \param halfSize see VertexSolver.
+  BlockVertexSolver(const HermiteSource& source, double sigmaNormal, double halfSize, SimdLevel level);
   ~BlockVertexSolver();
   BlockVertexSolver(const BlockVertexSolver&) = delete;
   BlockVertexSolver& operator=(const BlockVertexSolver&) = delete;
 
-  void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const VertexOutput& out,
+  /// Block `index` of the list.
+  void run(std::size_t index, const SurfaceBlocks& blocks, const Topology& topology, const VertexOutput& out,
            VertexCounts& counts);
 
  private:
   struct Scratch;
   const HermiteSource& mSource;
-  const VertexSolver& mSolver;
   std::unique_ptr<Scratch> mScratch;
 };
 

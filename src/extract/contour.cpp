@@ -1,11 +1,13 @@
 #include "pdc/extract/contour.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "extract/block_topology.h"
+#include "extract/certify.h"
 #include "extract/fill_mesh.h"
 #include "with_threads.h"
 
@@ -19,6 +21,20 @@ void checkOptions(const ContourOptions& options) {
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
 }
 
+/// Quads to triangles, before the triangles that are there.
+void splitQuads(Mesh& mesh) {
+  const std::size_t quads = mesh.quads.size();
+  Buffer<Triangle> triangles(2 * quads + mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, quads, [&](std::size_t i) {
+    const Quad& q = mesh.quads[i];
+    triangles[2 * i] = {q[0], q[1], q[2]};
+    triangles[2 * i + 1] = {q[0], q[2], q[3]};
+  });
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin() + static_cast<std::ptrdiff_t>(2 * quads));
+  mesh.triangles.swap(triangles);
+  Buffer<Quad>().swap(mesh.quads);
+}
+
 Mesh run(const HermiteSource& source, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
   const SurfaceBlocks blocks = source.surfaceBlocks(monitor);
   if (!std::is_sorted(blocks.coords.begin(), blocks.coords.end()))
@@ -26,10 +42,26 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   const detail::Topology topology = detail::buildTopology(blocks, monitor);
   detail::checkVertexCount(topology.vertexCount);
   Mesh mesh;
-  const detail::VertexCounts counts = fillMesh(source, blocks, topology, options, mesh, monitor);
+  const bool promised = options.placement != Placement::kFree;
+  detail::Doubts doubts;
+  const detail::VertexCounts counts =
+      fillMesh(source, blocks, topology, options, mesh, promised ? &doubts : nullptr, monitor);
+  detail::CertifyCounts certified;
+  if (promised) certified = certify(source, blocks, topology, doubts, mesh, monitor);
+  if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
-    *report = {blocks.coords.size(), counts.crossings,          counts.outOfCell,    counts.moved,
-               topology.openArcs,    topology.multiVertexCells, counts.withoutNormal};
+    *report = {.blocks = blocks.coords.size(),
+               .crossings = counts.crossings,
+               .outOfCell = counts.outOfCell,
+               .clamped = counts.moved,
+               .boundaryEdges = topology.openArcs,
+               .multiVertexCells = topology.multiVertexCells,
+               .crossingsWithoutNormal = counts.withoutNormal,
+               .shortened = certified.shortened,
+               .drawnIn = certified.drawnIn,
+               .forcedDiagonals = certified.forcedDiagonals,
+               .fans = certified.fans,
+               .uncertified = certified.uncertified};
   return mesh;
 }
 

@@ -37,16 +37,17 @@ std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
 }  // namespace
 
 VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                      const ContourOptions& options, Mesh& mesh, const Monitor& monitor, SimdLevel level) {
+                      const ContourOptions& options, Mesh& mesh, Doubts* doubts, const Monitor& monitor,
+                      SimdLevel level) {
   mesh.positions.resize(topology.vertexCount);
   if (options.normals) mesh.normals.resize(topology.vertexCount);
-  options.triangles ? mesh.triangles.resize(2 * topology.quadCount) : mesh.quads.resize(topology.quadCount);
-  const VertexSolver solver(options.sigmaNormal, options.placement);
-  tbb::enumerable_thread_specific<BlockVertexSolver> solvers([&] { return BlockVertexSolver(source, solver, level); });
+  mesh.quads.resize(topology.quadCount);
+  const double halfSize = options.placement == Placement::kCell ? kCellHalfSize : kFreeHalfSize;
+  tbb::enumerable_thread_specific<BlockVertexSolver> solvers(
+      [&] { return BlockVertexSolver(source, options.sigmaNormal, halfSize, level); });
+  tbb::enumerable_thread_specific<Doubts> found;
   tbb::combinable<VertexCounts> counts;
-  const BlockFaceWriter faces(blocks, topology, source.map().mirrored(),
-                              options.triangles ? nullptr : mesh.quads.data(),
-                              options.triangles ? mesh.triangles.data() : nullptr, level);
+  const BlockFaceWriter faces(blocks, topology, source.map().mirrored(), mesh.quads.data(), level);
   BlockProgress progress(monitor, "contour", blocks.coords.size());
 
   Buffer<VertexError> current, previous;
@@ -59,20 +60,28 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
     currentFirst = topology.blocks[begin].firstVertex;
     if (current.size() < next - currentFirst) current.resize(next - currentFirst);
     const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, current.data(),
-                           currentFirst};
+                           currentFirst, nullptr};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
       monitor.throwIfStopped();
       BlockVertexSolver& block = solvers.local();
       VertexCounts& count = counts.local();
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
-        block.run(blocks.coords[i], blocks.signs[i], topology.blocks[i], out, count);
+      VertexOutput mine = out;
+      if (doubts != nullptr) mine.doubts = &found.local();
+      for (std::size_t i = range.begin(); i != range.end(); ++i) block.run(i, blocks, topology, mine, count);
     });
     const ErrorWindow errors{previous.data(), current.data(), previousFirst, currentFirst};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors);
+      Doubts* mine = doubts != nullptr ? &found.local() : nullptr;
+      for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors, mine);
       progress.advance(range.size());
     });
     begin = end;
+  }
+  if (doubts != nullptr) {
+    for (const Doubts& d : found) doubts->append(d);
+    std::sort(doubts->vertices.begin(), doubts->vertices.end(),
+              [](const LooseVertex& a, const LooseVertex& b) { return a.vertex < b.vertex; });
+    std::sort(doubts->quads.begin(), doubts->quads.end());
   }
   VertexCounts total;
   counts.combine_each([&](const VertexCounts& c) { total += c; });

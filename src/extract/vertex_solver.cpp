@@ -8,14 +8,6 @@
 namespace pdc::detail {
 namespace {
 
-/// Vertices stay this far inside their cell's walls, in voxels, so that faces of neighbouring cells cannot touch there.
-constexpr double kCellMargin = 1e-4;
-
-/// How far a free vertex may lie from the centre of its cell along an axis. On exact distance grids creases run up
-/// to 1.5 voxels outside the cells that see them; beyond that a minimiser comes from an ill-conditioned system, not
-/// from a feature.
-constexpr double kFreeHalfSize = 2.0;
-
 /// Eigenvalues of the classical quadric below this share of the largest count as zero (Lindstrom 2000).
 constexpr double kRankCutoff = 1e-3;
 
@@ -48,8 +40,7 @@ CellMetric::CellMetric(const Mat3d& jacobian, double unit)
   }
 }
 
-VertexSolver::VertexSolver(double sigmaNormal, Placement placement)
-    : mSigma(sigmaNormal), mHalfSize(placement == Placement::kFree ? kFreeHalfSize : 0.5 - kCellMargin) {}
+VertexSolver::VertexSolver(double sigmaNormal, double halfSize) : mSigma(sigmaNormal), mHalfSize(halfSize) {}
 
 bool VertexSolver::batched() const { return mSigma >= kMinBatchSigma && std::isfinite(mSigma); }
 

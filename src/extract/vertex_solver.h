@@ -37,16 +37,26 @@ struct SolvedVertex {
   bool moved = false;      ///< The vertex is not the free minimiser.
 };
 
+/// Vertices stay this far inside their cell's walls, in lattice units, so that faces of neighbouring cells cannot touch
+/// there.
+inline constexpr double kCellMargin = 1e-4;
+inline constexpr double kCellHalfSize = 0.5 - kCellMargin;
+
+/// How far a free vertex may lie from the centre of its cell along an axis. On exact distance grids creases run up
+/// to 1.5 voxels outside the cells that see them; beyond that a minimiser comes from an ill-conditioned system, not
+/// from a feature.
+inline constexpr double kFreeHalfSize = 2.0;
+
 /// Places the vertex of a patch: minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world space,
 /// that is σn² G in lattice units.
 class VertexSolver {
  public:
-  VertexSolver(double sigmaNormal, Placement placement);
+  /// \param halfSize how far vertices may lie from the centre of their cell along an axis, in lattice units.
+  VertexSolver(double sigmaNormal, double halfSize);
 
   [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
 
   [[nodiscard]] double sigma() const { return mSigma; }
-  /// How far the vertex may lie from the centre of its cell along an axis.
   [[nodiscard]] double halfSize() const { return mHalfSize; }
   /// True if σn is such that the free minimiser, A⁻¹ times the right-hand side about the mass point, may be found in
   /// single precision.

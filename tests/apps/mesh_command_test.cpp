@@ -65,9 +65,27 @@ TEST_F(MeshCommand, SceneIsContouredAtTheResolutionAskedFor) {
 
 TEST_F(MeshCommand, ReportHasAllKeys) {
   const Json report = contour({bulletGrid(), "--sigma-n", "inf", "--threads", "2", "--triangles"});
-  for (const char* key : {"input", "output", "vertices", "quads", "triangles", "boundary_edges", "clamped_vertices",
-                          "out_of_cell_vertices", "multi_vertex_cells", "sigma_n", "iso", "placement", "threads",
-                          "peak_memory_bytes", "bytes_written", "warnings"}) {
+  for (const char* key : {"input",
+                          "output",
+                          "vertices",
+                          "quads",
+                          "triangles",
+                          "boundary_edges",
+                          "clamped_vertices",
+                          "out_of_cell_vertices",
+                          "multi_vertex_cells",
+                          "shortened_vertices",
+                          "drawn_in_vertices",
+                          "forced_diagonals",
+                          "fans",
+                          "uncertified_pairs",
+                          "sigma_n",
+                          "iso",
+                          "placement",
+                          "threads",
+                          "peak_memory_bytes",
+                          "bytes_written",
+                          "warnings"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["input"], bulletGrid().string());
@@ -75,7 +93,8 @@ TEST_F(MeshCommand, ReportHasAllKeys) {
   EXPECT_EQ(report["sigma_n"], "inf");
   EXPECT_EQ(report["iso"], 0.0);
   EXPECT_EQ(report["threads"], 2);
-  EXPECT_EQ(report["placement"], "cell");
+  EXPECT_EQ(report["placement"], "certified");
+  EXPECT_EQ(report["uncertified_pairs"], 0);
   EXPECT_EQ(report["quads"], 0);
   EXPECT_GT(report["triangles"], 0);
   EXPECT_EQ(report["bytes_written"], std::filesystem::file_size(mOutput));
@@ -90,7 +109,7 @@ TEST_F(MeshCommand, ReportHasAllKeys) {
 TEST_F(MeshCommand, SigmaAndPlacementReachTheContouring) {
   contour({bulletGrid()});
   const std::string standard = readFile(mOutput);
-  contour({bulletGrid(), "--sigma-n", "0.05", "--placement", "cell"});
+  contour({bulletGrid(), "--sigma-n", "0.05", "--placement", "certified"});
   EXPECT_TRUE(readFile(mOutput) == standard);
   contour({bulletGrid(), "--sigma-n", "0.5"});
   EXPECT_FALSE(readFile(mOutput) == standard);

@@ -18,7 +18,7 @@ bool sameBytes(const Buffer<T>& a, const Buffer<T>& b) {
 Mesh fill(const HermiteSource& source, const ContourOptions& options, SimdLevel level) {
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   Mesh mesh;
-  fillMesh(source, blocks, detail::buildTopology(blocks, {}), options, mesh, {}, level);
+  fillMesh(source, blocks, detail::buildTopology(blocks, {}), options, mesh, nullptr, {}, level);
   return mesh;
 }
 

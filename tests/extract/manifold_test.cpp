@@ -4,28 +4,12 @@
 
 #include "extract/block_topology.h"
 #include "extract/fill_mesh.h"
-#include "extract/sign_source.h"
+#include "extract/packed_signs.h"
 #include "pdc/extract/contour.h"
 #include "pdc/mesh/mesh_report.h"
 
 namespace pdc {
 namespace {
-
-/// Small grids are packed into one volume, this far apart: not a multiple of the block size, so that they lie across
-/// block borders in every way.
-constexpr int kPitch = 9;
-constexpr int kPerAxis = 12;
-
-/// Calls fill(source, index, x, y, z) with the low corner of each of kPerAxis³ places.
-template <typename Fill>
-SignSource pack(bool open, Fill&& fill) {
-  SignSource source(kPitch * kPerAxis, open);
-  int i = 0;
-  for (int x = 0; x < kPerAxis; ++x)
-    for (int y = 0; y < kPerAxis; ++y)
-      for (int z = 0; z < kPerAxis; ++z) fill(source, i++, kPitch * x + 1, kPitch * y + 1, kPitch * z + 1);
-  return source;
-}
 
 void expectSound(const MeshReport& r) {
   EXPECT_EQ(r.nonManifoldEdges, 0u);
@@ -48,16 +32,8 @@ Mesh contourWithoutRule(const SignSource& source) {
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   const detail::Topology topology = detail::buildTopology(blocks, {}, detail::FlipRule::kNever);
   Mesh mesh;
-  detail::fillMesh(source, blocks, topology, {.sigmaNormal = 0.1}, mesh, {});
+  detail::fillMesh(source, blocks, topology, {.sigmaNormal = 0.1}, mesh, nullptr, {});
   return mesh;
-}
-
-/// Packs 6×6×6 grids of random signs.
-SignSource randomGrids(std::mt19937& engine, double density, bool open = false) {
-  std::bernoulli_distribution inside(density);
-  return pack(open, [&](SignSource& source, int, int x, int y, int z) {
-    for (int i = 0; i < 6 * 6 * 6; ++i) source.set(x + i / 36, y + i / 6 % 6, z + i % 6, inside(engine));
-  });
 }
 
 // Every sign pattern of the 3×3×2 points about a lattice edge, as a closed solid of its own.

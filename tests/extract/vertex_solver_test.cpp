@@ -65,9 +65,9 @@ TEST(VertexSolver, UniformLatticesNeedNoMetric) {
 TEST(VertexSolver, InfiniteNoiseGivesTheMassPoint) {
   RandomPatch random(1);
   for (const auto& metric : {kUniform, kSheared})
-    for (const auto placement : {Placement::kCell, Placement::kFree}) {
+    for (const double halfSize : {detail::kCellHalfSize, detail::kFreeHalfSize}) {
       const PatchSamples s = random.samples(5, 3, metric);
-      EXPECT_LT(length(VertexSolver(kInfinity, placement).solve(s, metric).x - massPoint(s)), 1e-14);
+      EXPECT_LT(length(VertexSolver(kInfinity, halfSize).solve(s, metric).x - massPoint(s)), 1e-14);
     }
 }
 
@@ -90,7 +90,7 @@ TEST(VertexSolver, NoNoiseGivesTheClassicalMinimiser) {
       Eigen::JacobiSVD<Eigen::MatrixXd> svd(N, Eigen::ComputeThinU | Eigen::ComputeThinV);
       svd.setThreshold(std::sqrt(1e-3));
       const Vec3d expected = m + K * fromEigen(svd.solve(d));
-      const SolvedVertex v = VertexSolver(0, Placement::kFree).solve(s, metric);
+      const SolvedVertex v = VertexSolver(0, detail::kFreeHalfSize).solve(s, metric);
       const double nearCut = svd.singularValues()[std::min(count, 3) - 1] / svd.singularValues()[0] / std::sqrt(1e-3);
       if (v.moved || (nearCut > 0.99 && nearCut < 1.01)) continue;
       ++compared;
@@ -115,7 +115,7 @@ TEST(VertexSolver, MinimisesTheProbabilisticQuadricInWorldSpace) {
         b += a * q;
       }
       const Vec3d expected = inverse(metric.M) * fromEigen(A.ldlt().solve(b));
-      const SolvedVertex v = VertexSolver(sigma, Placement::kFree).solve(s, metric);
+      const SolvedVertex v = VertexSolver(sigma, detail::kFreeHalfSize).solve(s, metric);
       EXPECT_TRUE(v.moved || length(v.x - expected) < 1e-8) << sigma;
       EXPECT_EQ(v.moved, std::max({std::abs(expected.x), std::abs(expected.y), std::abs(expected.z)}) > 2.0);
     }
@@ -128,8 +128,8 @@ TEST(VertexSolver, StaysInTheCellAndIsTheBestPointThere) {
     for (const auto& metric : {kUniform, kSheared})
       for (int i = 0; i < 300; ++i) {
         const PatchSamples s = random.samples(4, 3, metric);
-        const SolvedVertex v = VertexSolver(sigma, Placement::kCell).solve(s, metric);
-        const SolvedVertex unbounded = VertexSolver(sigma, Placement::kFree).solve(s, metric);
+        const SolvedVertex v = VertexSolver(sigma, detail::kCellHalfSize).solve(s, metric);
+        const SolvedVertex unbounded = VertexSolver(sigma, detail::kFreeHalfSize).solve(s, metric);
         EXPECT_LE(std::max({std::abs(v.x.x), std::abs(v.x.y), std::abs(v.x.z)}), 0.5);
         EXPECT_EQ(v.outOfCell, unbounded.outOfCell);
         moved += v.moved;
@@ -147,7 +147,7 @@ TEST(VertexSolver, WorksWithoutAnyNormal) {
   for (const double sigma : {0.0, 1e-9, 0.05}) {
     PatchSamples s = random.samples(4, 3, kUniform);
     s.row.fill({});
-    const SolvedVertex v = VertexSolver(sigma, Placement::kCell).solve(s, kUniform);
+    const SolvedVertex v = VertexSolver(sigma, detail::kCellHalfSize).solve(s, kUniform);
     EXPECT_LT(length(v.x - massPoint(s)), 1e-12);
   }
 }
@@ -155,7 +155,7 @@ TEST(VertexSolver, WorksWithoutAnyNormal) {
 TEST(VertexSolver, MirrorsWithItsInput) {
   RandomPatch random(6);
   PatchSamples s = random.samples(5, 3, kUniform);
-  const VertexSolver solver(0.05, Placement::kCell);
+  const VertexSolver solver(0.05, detail::kCellHalfSize);
   const Vec3d x = solver.solve(s, kUniform).x;
   for (int k = 0; k < s.size; ++k) {
     s.position[k].x *= -1;

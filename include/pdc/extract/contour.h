@@ -9,8 +9,9 @@ namespace pdc {
 
 /// Where a vertex may lie.
 enum class Placement {
-  kCell,  ///< In its own cell: the minimiser of the quadric over the cell.
-  kFree,  ///< Anywhere within 1.5 voxels of its cell: sharper, but faces may intersect.
+  kCertified,  ///< As kFree, and drawn back towards its cell where faces would intersect.
+  kCell,       ///< In its own cell: the minimiser of the quadric over the cell.
+  kFree,       ///< Anywhere within 1.5 voxels of its cell; faces may intersect.
 };
 
 struct ContourOptions {
@@ -18,7 +19,7 @@ struct ContourOptions {
   /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
   /// experiments.
   double sigmaNormal = 0.05;
-  Placement placement = Placement::kCell;
+  Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
   int threads = 0;         ///< 0: all. The result does not depend on it, byte for byte.
@@ -33,6 +34,11 @@ struct ContourReport {
   std::size_t boundaryEdges = 0;           ///< Edges of the mesh with one face; 0 unless the source is open.
   std::size_t multiVertexCells = 0;        ///< Cells with more than one vertex.
   std::size_t crossingsWithoutNormal = 0;  ///< Crossings used as points because no normal was found.
+  std::size_t shortened = 0;               ///< Vertices drawn part of the way back to their cells.
+  std::size_t drawnIn = 0;                 ///< Vertices drawn back into their cells all the way.
+  std::size_t forcedDiagonals = 0;         ///< Quads split along the diagonal of larger quadric error.
+  std::size_t fans = 0;                    ///< Quads replaced by triangles about the crossing of their lattice edge.
+  std::size_t uncertified = 0;             ///< Pairs of faces that still meet where they should not: see contour().
 };
 
 /// Dual contouring with probabilistic plane quadrics (Ju et al. 2002; Trettner & Kobbelt 2020, equations 6-8,
@@ -41,9 +47,18 @@ struct ContourReport {
 /// One vertex per surface cycle of a cell; one quad per sign-changing lattice edge whose four cells take part, split
 /// along the diagonal of smaller quadric error. Guaranteed: every edge has at most two faces, every vertex one fan of
 /// faces (a manifold, for any signs); no boundary unless the source is open; faces counter-clockwise seen from outside;
-/// the same bytes for any number of threads. Not guaranteed: absence of self-intersections. \throws
-/// std::invalid_argument for a negative or NaN sigmaNormal or negative threads; Error if the mesh would have more than
-/// 2^32 vertices, before any is made; Cancelled; whatever the source throws.
+/// the same bytes for any number of threads.
+///
+/// With kCertified and kCell and an affine map also: the triangles, quads being split as Mesh says, do not intersect
+/// each other in the single-precision coordinates given, and none faces backwards along its lattice edge; in the rare
+/// places where four vertices allow no such quad, triangles about an additional vertex on the lattice edge take its
+/// place. `uncertified` is 0 then. Not guaranteed for kFree, for maps that are not affine, where an open source's
+/// surface ends within a cell in several pieces, and beyond about 2^20 voxels from the origin, where single precision
+/// cannot tell a cell's walls apart; there `uncertified` counts what is left.
+///
+/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, or for a source whose blocks
+/// are not sorted; Error if the mesh would have more than 2^32 vertices, before any is made; Cancelled; whatever the
+/// source throws.
 [[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {},
                            ContourReport* report = nullptr, const Monitor& monitor = {});
 

@@ -18,6 +18,15 @@ inline constexpr int kBlockPoints = kBlockSize + 1;  ///< Lattice points per blo
 /// A lattice point, a cell, or a block coordinate.
 using Coord = std::array<std::int32_t, 3>;
 
+namespace detail {
+/// Number of set bits, without the instruction that plain x86-64 lacks.
+constexpr std::uint64_t bitCount(std::uint64_t v) {
+  v -= v >> 1 & 0x5555555555555555;
+  v = (v & 0x3333333333333333) + (v >> 2 & 0x3333333333333333);
+  return ((v + (v >> 4)) & 0x0F0F0F0F0F0F0F0F) * 0x0101010101010101 >> 56;
+}
+}  // namespace detail
+
 /// 512 bits, one per cell (or per lattice edge owned by the cell of the same name); z runs fastest: word x, bit 8y + z.
 struct CellMask {
   std::array<std::uint64_t, kBlockSize> word{};
@@ -36,9 +45,9 @@ struct CellMask {
     return any == 0;
   }
   [[nodiscard]] constexpr int count() const {
-    int n = 0;
-    for (const auto w : word) n += std::popcount(w);
-    return n;
+    std::uint64_t n = 0;
+    for (const auto w : word) n += detail::bitCount(w);
+    return static_cast<int>(n);
   }
 };
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pdc/math/vec3.h"
+
+namespace pdc::detail {
+
+/// A vertex whose faces may intersect others: it is outside its cell, or its cell is a strict one.
+struct LooseVertex {
+  std::uint64_t vertex;
+  std::int32_t block;
+  std::uint16_t cell;  ///< 64x + 8y + z.
+  Vec3f free;          ///< Where its quadric wants it, in lattice units from the centre of the cell.
+  /// Where it is safe: in its cell, and in a strict cell among its own patch's crossings.
+  Vec3f safe;
+};
+
+/// A sign-changing lattice edge of a block, whose quad it stands for.
+struct EdgeRef {
+  std::int32_t block;
+  std::uint16_t edge;  ///< 512 axis + 64x + 8y + z.
+
+  [[nodiscard]] int axis() const { return edge >> 9; }
+  [[nodiscard]] int x() const { return edge >> 6 & 7; }
+  [[nodiscard]] int y() const { return edge >> 3 & 7; }
+  [[nodiscard]] int z() const { return edge & 7; }
+  friend auto operator<=>(const EdgeRef&, const EdgeRef&) = default;
+};
+
+/// What one thread found that needs a closer look.
+struct Doubts {
+  std::vector<LooseVertex> vertices;
+  std::vector<EdgeRef> quads;  ///< None of whose diagonals passes the quick test.
+  std::uint64_t forcedDiagonals = 0;
+
+  void append(const Doubts& d) {
+    vertices.insert(vertices.end(), d.vertices.begin(), d.vertices.end());
+    quads.insert(quads.end(), d.quads.begin(), d.quads.end());
+    forcedDiagonals += d.forcedDiagonals;
+  }
+};
+
+}  // namespace pdc::detail
