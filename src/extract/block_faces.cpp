@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "extract/cell_rounding.h"
 #include "extract/float4.h"
 #include "extract/quad_rings.h"
 #include "math/lane_loops.h"
@@ -68,23 +69,29 @@ bool splitsAtFirst(const std::array<const VertexError*, 4>& error) {
 
 /// Whether the lattice edge passes from behind to before the planes of both triangles of a quad that is split along the
 /// diagonal from corner 0 to 2, or 1 to 3: a quick test that may say no in vain, but not yes.
+/// \param doubt what rounding may add to, or take from, the volumes that this looks at.
 template <int axis>
-bool passes(const std::array<const VertexError*, 4>& error, bool first) {
-  // For what rounding adds to, or takes from, volumes of the order of a cell's.
-  constexpr float kDoubt = 1e-3F;
+bool passes(const std::array<const VertexError*, 4>& error, bool first, float doubt) {
   std::array<Vec3f, 4> p;
   for (int k = 0; k < 4; ++k) {
     p[k] = error[k]->x + Vec3f{0.5F, 0.5F, 0.5F};
     p[k][(axis + 1) % 3] -= static_cast<float>(kRing[k][0]);
     p[k][(axis + 2) % 3] -= static_cast<float>(kRing[k][1]);
   }
-  const auto crosses = [](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const auto crosses = [doubt](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     const Vec3f n = cross(b - a, c - a);
     const float low = dot(n, a), high = n[axis] - low;
-    return low > kDoubt && high > kDoubt;
+    return low > doubt && high > doubt;
   };
   return first ? crosses(p[0], p[1], p[2]) && crosses(p[0], p[2], p[3])
                : crosses(p[1], p[2], p[3]) && crosses(p[1], p[3], p[0]);
+}
+
+/// Of triple products of three places not farther than a cell from a lattice point: what single precision does to
+/// their sums, and what rounding the places in world space does.
+float volumeDoubt(const LatticeMap& map, const Coord& block) {
+  constexpr double kArithmetic = 1e-5, kPerRounding = 16;
+  return static_cast<float>(kArithmetic + kPerRounding * cellRounding(map, block));
 }
 
 }  // namespace
@@ -100,6 +107,7 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doub
   constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const BlockTopology& own = mTopology.blocks[block];
   const BlockSigns& signs = mBlocks.signs[block];
+  const float doubt = doubts != nullptr ? volumeDoubt(mMap, mBlocks.coords[block]) : 0.0F;
   for (int x = 0; x < kBlockSize; ++x)
     for (std::uint64_t w = own.edges[axis].word[x]; w != 0; w &= w - 1) {
       const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
@@ -117,8 +125,8 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doub
         error[k] = &errors[vertex];
       }
       bool first = splitsAtFirst<axis>(error);
-      if (doubts != nullptr && !passes<axis>(error, first)) {
-        if (passes<axis>(error, !first)) {
+      if (doubts != nullptr && !passes<axis>(error, first, doubt)) {
+        if (passes<axis>(error, !first, doubt)) {
           first = !first;
           ++doubts->forcedDiagonals;
         } else {
@@ -126,7 +134,7 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doub
               {static_cast<std::int32_t>(block), static_cast<std::uint16_t>(512 * axis + 64 * x + bit)});
         }
       }
-      write(ring, first, signs.inside(x, y, z) == mMirrored, face++);
+      write(ring, first, signs.inside(x, y, z) == mMap.mirrored(), face++);
     }
 }
 

@@ -24,9 +24,9 @@ struct ErrorWindow {
 /// creases off.
 class BlockFaceWriter {
  public:
-  /// \param mirrored the lattice map turns right-handed frames into left-handed ones.
-  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, bool mirrored, Quad* quads, SimdLevel level)
-      : mBlocks(blocks), mTopology(topology), mMirrored(mirrored), mQuads(quads), mLevel(level) {}
+  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, const LatticeMap& map, Quad* quads,
+                  SimdLevel level)
+      : mBlocks(blocks), mTopology(topology), mMap(map), mQuads(quads), mLevel(level) {}
 
   /// \param doubts null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
   /// Such a quad is split along the other diagonal if that one passes.
@@ -39,7 +39,7 @@ class BlockFaceWriter {
 
   const SurfaceBlocks& mBlocks;
   const Topology& mTopology;
-  bool mMirrored;
+  const LatticeMap& mMap;
   Quad* mQuads;
   SimdLevel mLevel;
 };

@@ -58,8 +58,10 @@ class BlockCounter {
     mOut.vertexCount = static_cast<std::uint32_t>(before);
     if (!mOut.special.empty())
       mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
-    for (const CellMask& m : mOut.edges)
-      for (const std::uint64_t w : m.word) mOut.quadCount += static_cast<std::uint32_t>(bitCount(w));
+    for (int i = 0; i < 3 * kBlockSize; ++i) {
+      mOut.quadsBefore[i] = static_cast<std::uint16_t>(mOut.quadCount);
+      mOut.quadCount += static_cast<std::uint32_t>(bitCount(mOut.edges[i / kBlockSize].word[i % kBlockSize]));
+    }
   }
 
  private:

@@ -23,9 +23,10 @@ struct SpecialCell {
 /// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its
 /// points.
 struct BlockTopology {
-  CellMask cells;                                     ///< Cells with at least one vertex.
-  std::array<CellMask, 3> edges;                      ///< Per axis, the edges that get a quad.
-  std::array<std::uint16_t, kBlockSize> cellsBefore;  ///< Cells in the words of `cells` before word x.
+  CellMask cells;                                         ///< Cells with at least one vertex.
+  std::array<CellMask, 3> edges;                          ///< Per axis, the edges that get a quad.
+  std::array<std::uint16_t, kBlockSize> cellsBefore;      ///< Cells in the words of `cells` before word x.
+  std::array<std::uint16_t, 3 * kBlockSize> quadsBefore;  ///< Of an axis and x: quads of the words of `edges` before.
   std::array<std::int32_t, 8> lower;  ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
   std::vector<SpecialCell> special;   ///< By ascending cell.
   std::uint32_t vertexCount = 0, quadCount = 0;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "extract/cell_rounding.h"
 #include "extract/float4.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_batch.h"
@@ -38,15 +39,22 @@ CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
 
 /// Half the size of the part of a block's cells whose points stay well within the cell when their world coordinates are
 /// rounded to single precision.
-double cellHalfSize(const LatticeMap& map, const Vec3d& origin) {
-  const Vec3d p = map.position(origin + Vec3d{4, 4, 4});
-  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + 16 * map.voxelSize();
-  const Mat3d K = inverse(map.jacobian(origin));
-  double rounding = 0;
-  for (int i = 0; i < 3; ++i)
-    rounding =
-        std::max(rounding, (std::abs(K.row[i].x) + std::abs(K.row[i].y) + std::abs(K.row[i].z)) * largest * 0x1p-24);
-  return 0.5 - std::clamp(4 * rounding, kCellMargin, 0.25);
+double cellHalfSize(const LatticeMap& map, const Coord& block) {
+  return 0.5 - std::clamp(4 * cellRounding(map, block), kCellMargin, 0.25);
+}
+
+/// A vertex no farther than this, in lattice units, beyond that part of its cell is put back into it: surfaces that lie
+/// on lattice planes have all their vertices there, give or take rounding.
+constexpr double kSnap = 1e-4;
+
+/// Nor does a vertex leave its cell to come nearer to its planes by less than this, in voxels.
+constexpr double kFlatness = 1e-3;
+
+float reach(const Vec3f& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
+
+template <typename T>
+void clampToCube(Vec3<T>& x, double halfSize) {
+  for (int i = 0; i < 3; ++i) x[i] = std::clamp(x[i], static_cast<T>(-halfSize), static_cast<T>(halfSize));
 }
 
 /// One block while its vertices are being solved.
@@ -183,16 +191,18 @@ struct BlockVertexSolver::Scratch {
         solveAlone(block, w);
         continue;
       }
-      const Vec3f v = mass[lane] + solution.x.get(lane);
-      const float reach = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-      const bool loose = block.out.doubts != nullptr && (w.strict || !(reach <= block.cellHalfSize));
-      if (loose || !(reach <= solver.halfSize())) {
+      Vec3f v = mass[lane] + solution.x.get(lane);
+      const bool promised = block.out.doubts != nullptr;
+      const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
+      if ((promised && w.strict) || !(reach(v) <= limit)) {
         solveAlone(block, w);
         continue;
       }
-      block.counts.outOfCell += reach > 0.5F;
+      block.counts.outOfCell += reach(v) > 0.5F;
       const SymMat3<float> A = system.A.get(lane);
-      write(block, w, {v, A, A * v});
+      const Vec3f b = A * v;
+      if (promised) clampToCube(v, block.cellHalfSize);
+      write(block, w, {v, A, b});
     }
     lanes = 0;
   }
@@ -211,29 +221,51 @@ struct BlockVertexSolver::Scratch {
     const SolvedVertex v = solver.solve(samples, block.metric);
     block.counts.outOfCell += v.outOfCell;
     block.counts.moved += v.moved;
-    if (block.out.doubts != nullptr) doubt(block, w, v.x);
-    write(block, w, {vecCast<float>(v.x), matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)});
+    Vec3f at = vecCast<float>(v.x);
+    if (block.out.doubts != nullptr) at = keepOrNote(block, w, v.x);
+    write(block, w, {at, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)});
   }
 
-  /// Notes the vertex, whose samples are gathered, if it is loose.
-  void doubt(const BlockState& block, const Waiting& w, const Vec3d& x) {
-    const double reach = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    if (!w.strict && reach <= block.cellHalfSize) return;
+  /// Puts a vertex whose free place is `x` into its cell where that costs nothing; or notes it as loose. \returns where
+  /// it is now.
+  Vec3f keepOrNote(const BlockState& block, const Waiting& w, const Vec3d& x) {
+    Vec3f free = vecCast<float>(x);
     Vec3d safe{};
     if (w.strict) {
-      // Not where two patches may touch: crossings at the very ends of their edges.
-      constexpr double kInner = 0.49;
-      for (int i = 0; i < samples.size; ++i) {
-        Vec3d p = samples.position[i];
-        p[sampleAxis[i]] = std::clamp(p[sampleAxis[i]], -kInner, kInner);
-        safe += p * (1.0 / samples.size);
-      }
+      safe = meanCrossing();
+    } else if (reach(free) <= block.cellHalfSize + kSnap) {
+      clampToCube(free, block.cellHalfSize);
+      return free;
     } else {
       safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
+      if (planeError(safe) <= planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
-    for (int k = 0; k < 3; ++k) safe[k] = std::clamp(safe[k], -block.cellHalfSize, block.cellHalfSize);
+    clampToCube(safe, block.cellHalfSize);
     const auto cell = static_cast<std::uint16_t>(64 * w.cell[0] + 8 * w.cell[1] + w.cell[2]);
-    block.out.doubts->vertices.push_back({w.vertex, block.index, cell, vecCast<float>(x), vecCast<float>(safe)});
+    block.out.doubts->vertices.push_back({w.vertex, block.index, cell, free, vecCast<float>(safe)});
+    return free;
+  }
+
+  /// Of the samples, away from where two patches may touch: crossings at the very ends of their edges.
+  [[nodiscard]] Vec3d meanCrossing() const {
+    constexpr double kInner = 0.49;
+    Vec3d mean{};
+    for (int i = 0; i < samples.size; ++i) {
+      Vec3d p = samples.position[i];
+      p[sampleAxis[i]] = std::clamp(p[sampleAxis[i]], -kInner, kInner);
+      mean += p * (1.0 / samples.size);
+    }
+    return mean;
+  }
+
+  /// Mean squared distance to the samples' planes, in voxels squared.
+  [[nodiscard]] double planeError(const Vec3d& x) const {
+    double sum = 0;
+    for (int i = 0; i < samples.size; ++i) {
+      const double distance = dot(samples.row[i], x - samples.position[i]);
+      sum += distance * distance;
+    }
+    return sum / samples.size;
   }
 
   static SymMat3<float> matrixCast(const SymMat3<double>& A) {
@@ -295,7 +327,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
                          edges,
                          metric,
                          origin,
-                         cellHalfSize(mSource.map(), origin),
+                         cellHalfSize(mSource.map(), block),
                          out,
                          counts};
   forEachBlock(mScratch->level, 1, [&](std::size_t) { mScratch->run(state); });

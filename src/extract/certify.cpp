@@ -1,13 +1,14 @@
 #include "extract/certify.h"
 
-#include <tbb/enumerable_thread_specific.h>
+#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 #include "extract/fans.h"
+#include "extract/gather.h"
 #include "extract/near_faces.h"
 #include "extract/quad_rings.h"
 
@@ -31,130 +32,165 @@ class Certifier {
         mMesh(mesh) {}
 
   CertifyCounts run(const Doubts& doubts, const Monitor& monitor) {
-    for (const EdgeRef& e : doubts.quads) settle(e);
-    std::vector<EdgeRef> active;
-    for (const LooseVertex& v : mLoose) addQuadsAt(v, active);
-    sortUnique(active);
-    mFaces.setFarReaching(active);
+    settle(doubts.quads);
+    std::vector<EdgeRef> active = quadsAt(mLoose.size(), [](std::size_t i) { return i; });
+    const NearFaces near(mFaces, active);
     std::vector<EdgeRef> stuck;
     while (!active.empty()) {
       monitor.throwIfStopped();
-      const std::vector<Offence> offences = findOffences(active);
-      active.clear();
-      drawBack(offences, active, stuck);
-      sortUnique(active);
+      active = answer(near, near.findOffences(active), stuck);
     }
     // What could not be answered may have been by what moved later.
     sortUnique(stuck);
-    mCounts.uncertified = findOffences(stuck).size();
+    mCounts.uncertified = near.findOffences(stuck).size();
     mCounts.forcedDiagonals += doubts.forcedDiagonals;
     mCounts.fans = mFans.size();
     for (const std::uint8_t drawn : mDrawn) {
       mCounts.drawnIn += drawn == kDrawnIn;
       mCounts.shortened += drawn > 0 && drawn < kDrawnIn;
     }
-    mFans.replaceQuads();
+    mCounts.addedBoundaryEdges = mFans.replaceQuads();
     return mCounts;
   }
 
  private:
-  static void sortUnique(std::vector<EdgeRef>& edges) {
-    tbb::parallel_sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  template <typename T>
+  static void sortUnique(std::vector<T>& list) {
+    tbb::parallel_sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 
   [[nodiscard]] static CellRef cellOf(const LooseVertex& v) {
     return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7};
   }
 
-  void addQuadsAt(const LooseVertex& v, std::vector<EdgeRef>& quads) const {
-    mRings.forEachEdge(cellOf(v), [&](const EdgeRef& e, int edge) {
+  /// The quads at the loose vertices number(0) to number(n - 1), sorted.
+  template <typename Number>
+  [[nodiscard]] std::vector<EdgeRef> quadsAt(std::size_t n, Number&& number) const {
+    std::vector<EdgeRef> quads = gather<EdgeRef>(n, [&](std::size_t i, std::vector<EdgeRef>& out) {
+      const LooseVertex& v = mLoose[number(i)];
       const CellRef c = cellOf(v);
-      if (mRings.block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) quads.push_back(e);
+      mRings.forEachEdge(c, [&](const EdgeRef& e, int edge) {
+        if (mRings.block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) out.push_back(e);
+      });
     });
+    sortUnique(quads);
+    return quads;
   }
 
-  /// Number among the loose vertices, or -1.
-  [[nodiscard]] std::ptrdiff_t looseIndex(std::uint32_t vertex) const {
+  /// Number of the vertex among the loose ones if it may still be moved, or -1.
+  [[nodiscard]] std::ptrdiff_t movable(std::uint32_t vertex) const {
     const auto it = std::lower_bound(mLoose.begin(), mLoose.end(), vertex,
                                      [](const LooseVertex& l, std::uint32_t v) { return l.vertex < v; });
-    return it != mLoose.end() && it->vertex == vertex ? it - mLoose.begin() : -1;
+    if (it == mLoose.end() || it->vertex != vertex) return -1;
+    const std::ptrdiff_t i = it - mLoose.begin();
+    return mDrawn[i] < kDrawnIn ? i : -1;
   }
 
-  [[nodiscard]] bool movable(std::uint32_t vertex) const {
-    const std::ptrdiff_t i = looseIndex(vertex);
-    return i >= 0 && mDrawn[i] < kDrawnIn;
-  }
-
-  [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active) const {
-    tbb::enumerable_thread_specific<std::vector<Offence>> found;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size(), 64), [&](const auto& range) {
-      NearFaces near(mFaces);
-      for (std::size_t i = range.begin(); i != range.end(); ++i) near.findOffences(active[i], active, found.local());
-    });
-    std::vector<Offence> all;
-    for (const std::vector<Offence>& part : found) all.insert(all.end(), part.begin(), part.end());
-    tbb::parallel_sort(all.begin(), all.end());
-    return all;
-  }
-
-  /// Answers the offences; appends the quads that changed, and those for which nothing is left to do.
-  void drawBack(const std::vector<Offence>& offences, std::vector<EdgeRef>& changed, std::vector<EdgeRef>& stuck) {
+  /// Answers the offences, each by the gentlest means left: the quad's other diagonal, drawing vertices back, fans,
+  /// split cells. \returns the faces that changed, sorted; appends those for which nothing is left to `stuck`.
+  [[nodiscard]] std::vector<EdgeRef> answer(const NearFaces& near, const std::vector<Offence>& offences,
+                                            std::vector<EdgeRef>& stuck) {
+    std::vector<EdgeRef> changed = turn(near, offences);
+    const auto turned = [&changed, n = changed.size()](const EdgeRef& e) {
+      return std::binary_search(changed.begin(), changed.begin() + static_cast<std::ptrdiff_t>(n), e);
+    };
     std::vector<std::ptrdiff_t> draw;
     std::vector<const Offence*> settled;
     for (const Offence& o : offences) {
+      if (turned(o.edge0) || turned(o.edge1)) continue;
       const std::size_t before = draw.size();
       for (const Triangle& t : {o.triangle0, o.triangle1})
         for (const std::uint32_t v : t)
-          if (movable(v)) draw.push_back(looseIndex(v));
+          if (const std::ptrdiff_t i = movable(v); i >= 0) draw.push_back(i);
       if (draw.size() == before) settled.push_back(&o);
     }
-    std::sort(draw.begin(), draw.end());
-    draw.erase(std::unique(draw.begin(), draw.end()), draw.end());
-    std::vector<EdgeRef> moved;
-    for (const std::ptrdiff_t i : draw) {
-      const LooseVertex& v = mLoose[i];
-      move(v, kShare[++mDrawn[i]]);
-      addQuadsAt(v, moved);
-    }
-    sortUnique(moved);
-    for (const EdgeRef& e : moved) settle(e);
-    changed.insert(changed.end(), moved.begin(), moved.end());
+    sortUnique(draw);
+    const std::vector<EdgeRef> moved = drawBack(draw);
+    std::vector<EdgeRef> hardened;
     for (const Offence* o : settled)
-      if (!harden(*o, changed)) stuck.insert(stuck.end(), {o->edge0, o->edge1});
+      if (!harden(*o, hardened)) stuck.insert(stuck.end(), {o->edge0, o->edge1});
+    changed.insert(changed.end(), moved.begin(), moved.end());
+    changed.insert(changed.end(), hardened.begin(), hardened.end());
+    sortUnique(changed);
+    return changed;
+  }
+
+  /// Turns the diagonals of offending quads where that leaves no offence, at most once each. \returns those turned,
+  /// sorted.
+  std::vector<EdgeRef> turn(const NearFaces& near, const std::vector<Offence>& offences) {
+    std::vector<EdgeRef> edges;
+    for (const Offence& o : offences)
+      for (const EdgeRef& e : {o.edge0, o.edge1})
+        if (!mFans.has(mRings.face(e)) && !std::binary_search(mTurned.begin(), mTurned.end(), e)) edges.push_back(e);
+    sortUnique(edges);
+    // Where all vertices stay, the diagonal has been chosen for good.
+    std::erase_if(edges, [this](const EdgeRef& e) { return stays(mRings.vertices(e)); });
+    std::vector<Quad> quads;
+    for (const EdgeRef& e : edges) quads.push_back(turned(mMesh.quads[mRings.face(e)]));
+    const std::vector<std::uint8_t> sound = near.soundWhenTurned(edges, quads);
+    std::vector<EdgeRef> done;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (sound[i] == 0) continue;
+      mMesh.quads[mRings.face(edges[i])] = quads[i];
+      ++mCounts.forcedDiagonals;
+      done.push_back(edges[i]);
+    }
+    mTurned.insert(mTurned.end(), done.begin(), done.end());
+    std::sort(mTurned.begin(), mTurned.end());
+    return done;
+  }
+
+  static Quad turned(const Quad& q) { return {q[1], q[2], q[3], q[0]}; }
+
+  /// Draws loose vertices back by one step. \returns the quads at them, sorted.
+  std::vector<EdgeRef> drawBack(const std::vector<std::ptrdiff_t>& vertices) {
+    tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
+      const std::ptrdiff_t v = vertices[i];
+      move(mLoose[v], kShare[++mDrawn[v]]);
+    });
+    std::vector<EdgeRef> moved =
+        quadsAt(vertices.size(), [&](std::size_t i) { return static_cast<std::size_t>(vertices[i]); });
+    settle(moved);
+    return moved;
   }
 
   void move(const LooseVertex& v, float share) {
     const CellRef c = cellOf(v);
     const Coord& b = mRings.blockCoord(v.block);
-    const Vec3d center{kBlockSize * b[0] + c.x + 0.5, kBlockSize * b[1] + c.y + 0.5, kBlockSize * b[2] + c.z + 0.5};
+    const Vec3d center{kBlockSize * double(b[0]) + c.x + 0.5, kBlockSize * double(b[1]) + c.y + 0.5,
+                       kBlockSize * double(b[2]) + c.z + 0.5};
     const Vec3f x = v.safe + (v.free - v.safe) * share;
     mMesh.positions[v.vertex] = vecCast<float>(mMap.position(center + vecCast<double>(x)));
   }
 
-  /// A quad all of whose vertices are where they stay gets a diagonal that the lattice edge passes on the right sides
-  /// of both triangles of, or becomes a fan.
-  void settle(const EdgeRef& e) {
-    if (mFans.has(e)) return;
-    const Quad ring = mRings.vertices(e);
-    for (const std::uint32_t v : ring)
-      if (movable(v)) return;
-    Quad& quad = mMesh.quads[mRings.face(e)];
-    if (mFaces.passes(e, quad)) return;
-    const Quad turned{quad[1], quad[2], quad[3], quad[0]};
-    if (mFaces.passes(e, turned)) {
-      quad = turned;
-      ++mCounts.forcedDiagonals;
-    } else {
-      mFans.add(e);
-    }
+  [[nodiscard]] bool stays(const Quad& ring) const {
+    return std::none_of(ring.begin(), ring.end(), [this](std::uint32_t v) { return movable(v) >= 0; });
+  }
+
+  /// Quads all of whose vertices are where they stay get a diagonal both of whose triangles the lattice edge passes in
+  /// the right direction, or become fans.
+  void settle(const std::vector<EdgeRef>& edges) {
+    const std::vector<EdgeRef> fans = gather<EdgeRef>(edges.size(), [&](std::size_t i, std::vector<EdgeRef>& out) {
+      const EdgeRef& e = edges[i];
+      const std::uint64_t face = mRings.face(e);
+      if (mFans.has(face) || !stays(mRings.vertices(e))) return;
+      Quad& quad = mMesh.quads[face];
+      if (mFaces.passes(e, quad)) return;
+      if (!mFaces.passes(e, turned(quad))) return out.push_back(e);
+      quad = turned(quad);
+      ++mForced.local();
+    });
+    for (const EdgeRef& e : fans) mFans.add(e);
+    mCounts.forcedDiagonals += mForced.combine(std::plus<>());
+    mForced.clear();
   }
 
   /// The last steps: fans, then split cells. \returns false if they have been taken.
   bool harden(const Offence& o, std::vector<EdgeRef>& changed) {
     bool any = false;
     for (const EdgeRef& e : {o.edge0, o.edge1}) {
-      if (mFans.has(e)) continue;
+      if (mFans.has(mRings.face(e))) continue;
       mFans.add(e);
       changed.push_back(e);
       any = true;
@@ -172,6 +208,8 @@ class Certifier {
   FaceTests mFaces;
   const std::vector<LooseVertex>& mLoose;
   std::vector<std::uint8_t> mDrawn;  ///< How often each was drawn back.
+  std::vector<EdgeRef> mTurned;      ///< Quads whose diagonals were turned, sorted.
+  tbb::combinable<std::size_t> mForced{[] { return std::size_t{0}; }};
   Mesh& mMesh;
   CertifyCounts mCounts;
 };

@@ -6,7 +6,7 @@
 namespace pdc::detail {
 
 struct CertifyCounts {
-  std::size_t shortened = 0, drawnIn = 0, forcedDiagonals = 0, fans = 0, uncertified = 0;
+  std::size_t shortened = 0, drawnIn = 0, forcedDiagonals = 0, fans = 0, uncertified = 0, addedBoundaryEdges = 0;
 };
 
 /// Moves loose vertices, turns diagonals and replaces quads by fans until no triangle of the mesh meets another where

@@ -54,7 +54,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .crossings = counts.crossings,
                .outOfCell = counts.outOfCell,
                .clamped = counts.moved,
-               .boundaryEdges = topology.openArcs,
+               .boundaryEdges = topology.openArcs + certified.addedBoundaryEdges,
                .multiVertexCells = topology.multiVertexCells,
                .crossingsWithoutNormal = counts.withoutNormal,
                .shortened = certified.shortened,

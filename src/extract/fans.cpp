@@ -1,6 +1,7 @@
 #include "extract/fans.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace pdc::detail {
 namespace {
@@ -21,17 +22,19 @@ struct Fans::Crossings {
 };
 
 Fans::Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const QuadRings& rings, Mesh& mesh)
-    : mSource(source), mBlocks(blocks), mRings(rings), mMesh(mesh) {}
+    : mSource(source), mBlocks(blocks), mRings(rings), mMesh(mesh), mIsFan((mesh.quads.size() + 63) / 64) {}
 
 Fans::~Fans() = default;
 
-Vec3d Fans::crossing(const EdgeRef& e) {
-  if (mCrossings == nullptr || mCrossings->block != e.block)
-    mCrossings = std::make_unique<Crossings>(mSource, mBlocks.coords[e.block], mBlocks.signs[e.block], e.block);
-  const double t = mCrossings->hermite.t[mCrossings->edges(e.axis(), e.x(), e.y(), e.z())];
-  const Coord low = mRings.low(e);
-  Vec3d p{double(low[0]), double(low[1]), double(low[2])};
-  p[e.axis()] += std::clamp(t, kInner, 1 - kInner);
+Vec3d Fans::crossing(const CellRef& c, int edge) {
+  if (mCrossings == nullptr || mCrossings->block != c.block)
+    mCrossings = std::make_unique<Crossings>(mSource, mBlocks.coords[c.block], mBlocks.signs[c.block], c.block);
+  const int axis = edgeAxis(edge), corner = edgeLowCorner(edge);
+  const int x = c.x + (corner & 1), y = c.y + (corner >> 1 & 1), z = c.z + (corner >> 2);
+  const double t = mCrossings->hermite.t[mCrossings->edges(axis, x, y, z)];
+  const Coord& b = mBlocks.coords[c.block];
+  Vec3d p{kBlockSize * double(b[0]) + x, kBlockSize * double(b[1]) + y, kBlockSize * double(b[2]) + z};
+  p[axis] += std::clamp(t, kInner, 1 - kInner);
   return p;
 }
 
@@ -48,7 +51,10 @@ std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
 }
 
 void Fans::add(const EdgeRef& e) {
-  if (!has(e)) mCenter.emplace(e, append(crossing(e), e));
+  const std::uint64_t face = mRings.face(e);
+  if (has(face)) return;
+  mIsFan[face / 64] |= std::uint64_t{1} << face % 64;
+  mCenter.emplace(e, append(crossing(mRings.cells(e)[0], ringEdge(e.axis(), 0)), e));
 }
 
 bool Fans::split(const CellRef& c, std::vector<EdgeRef>& changed) {
@@ -58,16 +64,18 @@ bool Fans::split(const CellRef& c, std::vector<EdgeRef>& changed) {
     changed.push_back(e);
     const std::array<CellRef, 4> cells = mRings.cells(e);
     for (int k = 0; k < 4; ++k) {
-      if (!mSplit.contains(key(cells[k])) && !mSplit.contains(key(cells[(k + 1) & 3]))) continue;
-      const Segment s = segment(e, cells[k], k);
-      if (mFaceVertex.contains(s)) continue;
-      mFaceVertex.emplace(s, append((crossing(s.first) + crossing(s.second)) * 0.5, e));
+      if (!splitBetween(cells[k], cells[(k + 1) & 3])) continue;
+      const CellSegment s = segment(e, cells[k], k);
+      const Segment joined = segmentKey(cells[k], s);
+      if (mFaceVertex.contains(joined)) continue;
+      const Vec3d middle = (crossing(cells[k], s.edge0) + crossing(cells[k], s.edge1)) * 0.5;
+      mFaceVertex.emplace(joined, append(middle, e));
     }
   });
   return true;
 }
 
-Fans::Segment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const {
+Fans::CellSegment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const {
   const int u = (e.axis() + 1) % 3, v = (e.axis() + 2) % 3;
   const std::array<int, 4> faceOf{2 * u, 2 * v, 2 * u + 1, 2 * v + 1};
   const int own = ringEdge(e.axis(), k), code = mRings.code(c);
@@ -75,15 +83,22 @@ Fans::Segment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const {
   const SpecialCell* special = mRings.block(c.block).findSpecial(key(c).second);
   const bool flipped = special != nullptr && entry.flipFace != kNone && special->patch == entry.flipped.vertex;
   const Segments all = segments(code, flipped);
-  EdgeRef other = e;
   for (int i = 0; i < all.size; ++i) {
     const auto& s = all.at[i];
-    if (s.face != faceOf[k] || (s.edge0 != own && s.edge1 != own)) continue;
-    mRings.forEachEdge(c, [&](const EdgeRef& ref, int edge) {
-      if (edge == (s.edge0 == own ? s.edge1 : s.edge0)) other = ref;
-    });
+    if (s.face == faceOf[k] && (s.edge0 == own || s.edge1 == own)) return {s.edge0, s.edge1};
   }
-  return std::minmax(e, other);
+  return {own, own};  // Not reached: every sign-changing edge of a face ends a segment there.
+}
+
+Fans::Segment Fans::segmentKey(const CellRef& c, const CellSegment& s) const {
+  const Coord& b = mBlocks.coords[c.block];
+  const auto lattice = [&](int edge) {
+    const int corner = edgeLowCorner(edge);
+    return LatticeEdge({kBlockSize * b[0] + c.x + (corner & 1), kBlockSize * b[1] + c.y + (corner >> 1 & 1),
+                        kBlockSize * b[2] + c.z + (corner >> 2)},
+                       edgeAxis(edge));
+  };
+  return std::minmax({lattice(s.edge0), lattice(s.edge1)});
 }
 
 void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
@@ -93,8 +108,8 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
   int n = 0;
   for (int k = 0; k < 4; ++k) {
     rim[n++] = ring[k];
-    if (mSplit.contains(key(cells[k])) || mSplit.contains(key(cells[(k + 1) & 3])))
-      rim[n++] = mFaceVertex.at(segment(e, cells[k], k));
+    if (splitBetween(cells[k], cells[(k + 1) & 3]))
+      rim[n++] = mFaceVertex.at(segmentKey(cells[k], segment(e, cells[k], k)));
   }
   const bool reversed = mRings.lowInside(e) == mSource.map().mirrored();
   const std::uint32_t center = mCenter.at(e);
@@ -104,25 +119,28 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
   }
 }
 
-void Fans::replaceQuads() {
-  if (mCenter.empty()) return;
+std::size_t Fans::replaceQuads() {
   std::vector<std::uint64_t> faces;
-  std::vector<Triangle> fan;
   for (const auto& [edge, center] : mCenter) {
     faces.push_back(mRings.face(edge));
+    std::vector<Triangle> fan;
     triangles(edge, fan);
+    mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());
   }
-  std::sort(faces.begin(), faces.end());
-  mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());
-  std::size_t kept = faces[0], next = 0;
-  for (std::size_t i = faces[0]; i < mMesh.quads.size(); ++i) {
-    if (next < faces.size() && faces[next] == i) {
-      ++next;
-    } else {
-      mMesh.quads[kept++] = mMesh.quads[i];
-    }
+  std::sort(faces.begin(), faces.end(), std::greater<>());
+  for (const std::uint64_t face : faces) {
+    mMesh.quads[face] = mMesh.quads.back();
+    mMesh.quads.pop_back();
   }
-  mMesh.quads.resize(kept);
+
+  // A face vertex lies in two triangles of each fan at its place; where there is one fan, it parts a boundary edge.
+  std::map<std::uint32_t, int> uses;
+  for (const auto& [joined, vertex] : mFaceVertex) uses.emplace(vertex, 0);
+  for (const Triangle& t : mMesh.triangles)
+    for (const std::uint32_t v : t)
+      if (const auto it = uses.find(v); it != uses.end()) ++it->second;
+  return static_cast<std::size_t>(
+      std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second == 2; }));
 }
 
 }  // namespace pdc::detail

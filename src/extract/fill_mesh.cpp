@@ -47,7 +47,7 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
       [&] { return BlockVertexSolver(source, options.sigmaNormal, halfSize, level); });
   tbb::enumerable_thread_specific<Doubts> found;
   tbb::combinable<VertexCounts> counts;
-  const BlockFaceWriter faces(blocks, topology, source.map().mirrored(), mesh.quads.data(), level);
+  const BlockFaceWriter faces(blocks, topology, source.map(), mesh.quads.data(), level);
   BlockProgress progress(monitor, "contour", blocks.coords.size());
 
   Buffer<VertexError> current, previous;

@@ -1,85 +1,196 @@
 #include "extract/near_faces.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "extract/float4.h"
+#include "extract/gather.h"
 #include "extract/vertex_solver.h"
-#include "pdc/math/predicates.h"
+#include "math/lane_loops.h"
 
 namespace pdc::detail {
 namespace {
 
-Vec3d lattice(const Coord& c) { return {double(c[0]), double(c[1]), double(c[2])}; }
+/// How far, along an axis, a face may reach from the low end of its lattice edge: with vertices in their cells, and
+/// with free ones.
+constexpr double kCellReach = 1, kFreeReach = kFreeHalfSize + 0.5;
 
-void grow(Vec3f& low, Vec3f& high, const TriangleCorners& t) {
-  for (const Vec3f& p : t)
+/// The lattice points of a block that are not farther than `reach` from a box, as bits of a CellMask.
+class Window {
+ public:
+  Window(const Vec3d& low, const Vec3d& high, double reach, const Coord& block) {
+    std::array<int, 3> begin, end;
     for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
+      begin[i] = std::max(static_cast<int>(std::ceil(low[i] - reach)) - kBlockSize * block[i], 0);
+      end[i] = std::min(static_cast<int>(std::floor(high[i] + reach)) - kBlockSize * block[i] + 1, kBlockSize);
+      if (begin[i] >= end[i]) return;
     }
+    mBeginX = begin[0];
+    mEndX = end[0];
+    const auto upTo = [](int n) { return n == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1; };
+    constexpr std::uint64_t kFirstOfEachRow = 0x0101010101010101;
+    const std::uint64_t rows = kFirstOfEachRow & (upTo(8 * end[1]) ^ upTo(8 * begin[1]));
+    mWord = rows * (upTo(end[2]) ^ upTo(begin[2]));
+  }
+  [[nodiscard]] int beginX() const { return mBeginX; }
+  [[nodiscard]] int endX() const { return mEndX; }
+  [[nodiscard]] std::uint64_t word(int x) const { return x >= mBeginX && x < mEndX ? mWord : 0; }
+
+ private:
+  int mBeginX = 0, mEndX = 0;
+  std::uint64_t mWord = 0;
+};
+
+/// The plane of a triangle, for a quick look at what lies to one side of it.
+class TrianglePlane {
+ public:
+  TrianglePlane(const Triangle& vertices, const TriangleCorners& corners)
+      : mVertices(vertices), mOrigin(vecCast<double>(corners[0])) {
+    const Vec3d u = vecCast<double>(corners[1]) - mOrigin, v = vecCast<double>(corners[2]) - mOrigin;
+    mNormal = cross(u, v);
+    // Several times what rounding can do to the sign of a triple product.
+    constexpr double kRounding = 1e-14;
+    mDoubt = kRounding * kRounding * dot(u, u) * dot(v, v);
+  }
+
+  /// True if other triangles, with these corners, meet this one in no more than a vertex or an edge that they share:
+  /// all corners that are not its own are strictly on one side. False says nothing.
+  template <std::size_t n>
+  [[nodiscard]] bool clears(const std::array<std::uint32_t, n>& vertices, const std::array<Vec3f, n>& corners) const {
+    int above = 0, under = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t v = vertices[i];
+      if (v == mVertices[0] || v == mVertices[1] || v == mVertices[2]) continue;
+      const Vec3d w = vecCast<double>(corners[i]) - mOrigin;
+      const double side = dot(w, mNormal);
+      if (!(side * side > mDoubt * dot(w, w))) return false;
+      ++(side > 0 ? above : under);
+    }
+    return (above == 0) != (under == 0);
+  }
+
+ private:
+  Triangle mVertices;
+  Vec3d mOrigin, mNormal;
+  double mDoubt;
+};
+
+EdgeRef edgeAt(std::int32_t block, int axis, int x, int bit) {
+  return {block, static_cast<std::uint16_t>(512 * axis + 64 * x + bit)};
 }
+
+/// A box in world space.
+struct Box {
+  Float4 low, high;
+
+  template <std::size_t n>
+  explicit Box(const std::array<Vec3f, n>& corners) : low(float4(corners[0])), high(low) {
+    for (std::size_t i = 1; i < n; ++i) add(float4(corners[i]));
+  }
+  void add(Float4 p) {
+    low = p < low ? p : low;
+    high = p > high ? p : high;
+  }
+  [[nodiscard]] bool apartFrom(const Box& b) const {
+    const auto gap = (low > b.high) | (b.low > high);
+    return (gap[0] | gap[1] | gap[2]) != 0;
+  }
+};
 
 }  // namespace
 
-bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
-  Vec3d from = lattice(mRings.low(e)), to = from;
-  to[e.axis()] += 1;
-  if (!mRings.lowInside(e)) std::swap(from, to);
-  const Vec3d behind = mMap.position(from), before = mMap.position(to);
-  const auto p = [&](int i) { return vecCast<double>(mMesh.positions[quad[i]]); };
-  const auto crossed = [&](int a, int b, int c) {
-    return orient3d(p(a), p(b), p(c), behind) < 0 && orient3d(p(a), p(b), p(c), before) > 0;
-  };
-  return crossed(0, 1, 2) && crossed(0, 2, 3);
-}
+/// The face being looked at.
+struct NearFaces::Scratch {
+  std::vector<Triangle> own, other;
+  std::vector<TriangleCorners> corners;  ///< Of `own`.
+  std::vector<TrianglePlane> planes;     ///< Of `own`.
+};
 
-bool FaceTests::facesForward(const EdgeRef& e, const TriangleCorners& t) const {
-  Vec3d from = lattice(mRings.low(e)), to = from;
-  to[e.axis()] += 1;
-  if (!mRings.lowInside(e)) std::swap(from, to);
-  const Vec3d d = mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
-  const Vec3d p = vecCast<double>(t[0]);
-  const Vec3d n = cross(vecCast<double>(t[1]) - p, vecCast<double>(t[2]) - p);
-  // Differences of floats are exact or nearly so; what is left is far below this share.
-  constexpr double kRounding = 1e-14;
-  const double size = length(vecCast<double>(t[1]) - p) * length(vecCast<double>(t[2]) - p) * length(d);
-  return dot(n, d) > kRounding * size;
-}
-
-void FaceTests::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
-  out.clear();
-  if (mFans.has(e)) return mFans.triangles(e, out);
-  const Quad& q = mMesh.quads[mRings.face(e)];
-  out.push_back({q[0], q[1], q[2]});
-  out.push_back({q[0], q[2], q[3]});
-}
-
-/// \returns false if the faces' box is apart from that of the face being looked at.
-bool NearFaces::load(const EdgeRef& e, std::vector<Face>& faces) {
-  mTests.triangles(e, mTriangles);
-  faces.clear();
-  for (const Triangle& t : mTriangles) faces.push_back({t, mTests.corners(t)});
-  Vec3f low = faces[0].corners[0], high = low;
-  for (const Face& f : faces) grow(low, high, f.corners);
-  if (&faces == &mOwn) {
-    mLow = low;
-    mHigh = high;
+NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching)
+    : mTests(tests),
+      mToLattice(tests.map().affine() ? inverse(tests.map().jacobian({})) : Mat3d::identity()),
+      mOrigin(tests.map().affine() ? tests.map().position({}) : Vec3d{}),
+      mFarOf(tests.rings().blockCount(), -1),
+      mLargestReach(kCellReach) {
+  std::vector<double> reach(farReaching.size());
+  tbb::parallel_for(std::size_t{0}, reach.size(), [&](std::size_t i) { reach[i] = reachOf(farReaching[i]); });
+  for (std::size_t i = 0; i < farReaching.size(); ++i) {
+    const EdgeRef& e = farReaching[i];
+    std::int32_t& place = mFarOf[e.block];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(mFar.size());
+      mFar.emplace_back();
+    }
+    mFar[place].edges[e.axis()].set(e.x(), e.y(), e.z());
+    mFar[place].reach = std::max(mFar[place].reach, reach[i]);
+    mLargestReach = std::max(mLargestReach, reach[i]);
   }
-  return low.x <= mHigh.x && mLow.x <= high.x && low.y <= mHigh.y && mLow.y <= high.y && low.z <= mHigh.z &&
-         mLow.z <= high.z;
 }
 
-std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e) const {
+Vec3d NearFaces::latticePosition(const Vec3f& corner) const { return mToLattice * (vecCast<double>(corner) - mOrigin); }
+
+double NearFaces::reachOf(const EdgeRef& e) const {
+  if (!mTests.map().affine()) return kFreeReach;
+  const Coord at = mTests.rings().low(e);
+  double reach = 0;
+  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e))) {
+    const Vec3d step = latticePosition(corner) - Vec3d{double(at[0]), double(at[1]), double(at[2])};
+    reach = std::max({reach, std::abs(step.x), std::abs(step.y), std::abs(step.z)});
+  }
+  return reach;
+}
+
+template <typename Visit>
+void NearFaces::forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const {
+  static const FarFaces kNoFarFaces;
+  const FarFaces& farFaces = mFarOf[block] < 0 ? kNoFarFaces : mFar[mFarOf[block]];
+  const Coord& coord = mTests.rings().blockCoord(block);
+  const Window near(low, high, kCellReach, coord), far(low, high, std::max(farFaces.reach, kCellReach), coord);
+  const BlockTopology& topology = mTests.rings().block(block);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int x = far.beginX(); x < far.endX(); ++x) {
+      const std::uint64_t edges = topology.edges[axis].word[x];
+      std::uint64_t wanted = (edges & near.word(x)) | (farFaces.edges[axis].word[x] & far.word(x));
+      for (; wanted != 0; wanted &= wanted - 1) {
+        const int bit = std::countr_zero(wanted);
+        const std::uint64_t before = bitCount(edges & ((std::uint64_t{1} << bit) - 1));
+        visit(edgeAt(block, axis, x, bit), topology.firstQuad + topology.quadsBefore[kBlockSize * axis + x] + before);
+      }
+    }
+}
+
+/// Calls visit(edge, number of its face) for all faces that may reach into a box of lattice space.
+template <typename Visit>
+void NearFaces::forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const {
+  Coord from, to;
+  for (int i = 0; i < 3; ++i) {
+    from[i] = static_cast<std::int32_t>(std::floor(low[i] - mLargestReach)) >> 3;
+    to[i] = static_cast<std::int32_t>(std::floor(high[i] + mLargestReach)) >> 3;
+  }
+  for (Coord b = from; b[0] <= to[0]; ++b[0])
+    for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
+      for (b[2] = from[2]; b[2] <= to[2]; ++b[2])
+        if (const std::int32_t block = mTests.rings().find(b); block != BlockIndex::kMissing)
+          forEachIn(block, low, high, visit);
+}
+
+/// Box, in lattice space, of the face being looked at.
+inline std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e, const Scratch& own) const {
   if (!mTests.map().affine()) {
-    const Vec3d low = lattice(mTests.rings().low(e)), reach{kFreeHalfSize + 1, kFreeHalfSize + 1, kFreeHalfSize + 1};
-    return {low - reach, low + reach};
+    const Coord at = mTests.rings().low(e);
+    const Vec3d p{double(at[0]), double(at[1]), double(at[2])}, reach{kFreeReach, kFreeReach, kFreeReach};
+    return {p - reach, p + reach};
   }
-  Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
-  const Mat3d toLattice = inverse(mTests.map().jacobian({}));
-  const Vec3d origin = mTests.map().position({});
-  for (const Face& f : mOwn)
-    for (const Vec3f& corner : f.corners) {
-      const Vec3d p = toLattice * (vecCast<double>(corner) - origin);
+  constexpr double kHuge = 1e300;
+  Vec3d low{kHuge, kHuge, kHuge}, high = low * -1.0;
+  for (const TriangleCorners& t : own.corners)
+    for (const Vec3f& corner : t) {
+      const Vec3d p = latticePosition(corner);
       for (int i = 0; i < 3; ++i) {
         low[i] = std::min(low[i], p[i]);
         high[i] = std::max(high[i], p[i]);
@@ -88,47 +199,76 @@ std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e) const {
   return {low, high};
 }
 
-void NearFaces::test(const EdgeRef& e, const EdgeRef& other, std::vector<Offence>& out) {
-  if (other == e || !load(other, mOther)) return;
-  for (const Face& a : mOwn)
-    for (const Face& b : mOther)
-      if (trianglesIntersect(a.corners, a.vertices, b.corners, b.vertices))
-        out.push_back({e, other, a.vertices, b.vertices});
+inline void NearFaces::search(const EdgeRef& e, Scratch& own, const std::vector<EdgeRef>* foundFrom,
+                              std::vector<Offence>& out) const {
+  own.corners.clear();
+  own.planes.clear();
+  for (const Triangle& t : own.own) {
+    own.corners.push_back(mTests.corners(t));
+    own.planes.emplace_back(t, own.corners.back());
+  }
+  Box box(own.corners[0]);
+  for (std::size_t i = 0; i < own.own.size(); ++i) {
+    if (!mTests.facesForward(e, own.corners[i])) return out.push_back({e, e, own.own[i], own.own[i]});
+    for (std::size_t j = 0; j < i; ++j)
+      if (trianglesIntersect(own.corners[i], own.own[i], own.corners[j], own.own[j]))
+        out.push_back({e, e, own.own[j], own.own[i]});
+    for (const Vec3f& p : own.corners[i]) box.add(float4(p));
+  }
+  const auto isFoundFrom = [&](const EdgeRef& other) {
+    return foundFrom != nullptr && other < e && std::binary_search(foundFrom->begin(), foundFrom->end(), other);
+  };
+  const auto [low, high] = latticeBox(e, own);
+  forEachNear(low, high, [&](const EdgeRef& other, std::uint64_t face) {
+    if (other == e) return;
+    if (const Quad* quad = mTests.quad(face)) {
+      const std::array<Vec3f, 4> corners = mTests.corners(*quad);
+      if (box.apartFrom(Box(corners)) || isFoundFrom(other)) return;
+      // Nearly always all of the quad is on one side of the face's triangles.
+      for (std::size_t i = 0; i < own.own.size(); ++i) {
+        if (own.planes[i].clears(*quad, corners)) continue;
+        compare(e, own, i, other, {(*quad)[0], (*quad)[1], (*quad)[2]}, {corners[0], corners[1], corners[2]}, out);
+        compare(e, own, i, other, {(*quad)[0], (*quad)[2], (*quad)[3]}, {corners[0], corners[2], corners[3]}, out);
+      }
+    } else if (!isFoundFrom(other)) {
+      mTests.triangles(other, face, own.other);
+      for (const Triangle& t : own.other)
+        for (std::size_t i = 0; i < own.own.size(); ++i) compare(e, own, i, other, t, mTests.corners(t), out);
+    }
+  });
 }
 
-void NearFaces::findOffences(const EdgeRef& e, const std::vector<EdgeRef>& active, std::vector<Offence>& out) {
-  static_cast<void>(load(e, mOwn));
-  for (std::size_t i = 0; i < mOwn.size(); ++i) {
-    if (!mTests.facesForward(e, mOwn[i].corners)) {
-      out.push_back({e, e, mOwn[i].vertices, mOwn[i].vertices});
-      return;
-    }
-    for (std::size_t j = 0; j < i; ++j)
-      if (trianglesIntersect(mOwn[i].corners, mOwn[i].vertices, mOwn[j].corners, mOwn[j].vertices))
-        out.push_back({e, e, mOwn[j].vertices, mOwn[i].vertices});
-  }
-  const auto [low, high] = latticeBox(e);
-  // A vertex in its cell is at most 1 from the low end of each of its edges on any axis; a free one, this much.
-  const auto around = [&low = low, &high = high](double reach) {
-    Coord from, to;
-    for (int i = 0; i < 3; ++i) {
-      from[i] = static_cast<std::int32_t>(std::ceil(low[i] - reach));
-      to[i] = static_cast<std::int32_t>(std::floor(high[i] + reach));
-    }
-    return std::pair(from, to);
-  };
-  const auto [nearFrom, nearTo] = around(1);
-  mTests.rings().forEachIn(nearFrom, nearTo, nullptr, [&](const EdgeRef& other) {
-    if (other < e && std::binary_search(active.begin(), active.end(), other)) return;
-    test(e, other, out);
+/// Own triangle i with a triangle of another face.
+inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, std::size_t i, const EdgeRef& other,
+                               const Triangle& t, const TriangleCorners& corners, std::vector<Offence>& out) const {
+  if (own.planes[i].clears(t, corners) || TrianglePlane(t, corners).clears(own.own[i], own.corners[i])) return;
+  if (trianglesIntersect(own.corners[i], own.own[i], corners, t)) out.push_back({e, other, own.own[i], t});
+}
+
+std::vector<Offence> NearFaces::findOffences(const std::vector<EdgeRef>& active) const {
+  tbb::enumerable_thread_specific<Scratch> scratch;
+  std::vector<Offence> found = gather<Offence>(active.size(), [&](std::size_t i, std::vector<Offence>& out) {
+    Scratch& own = scratch.local();
+    mTests.triangles(active[i], mTests.rings().face(active[i]), own.own);
+    forEachBlock(mLevel, 1, [&](std::size_t) { search(active[i], own, &active, out); });
   });
-  const auto [farFrom, farTo] = around(kFreeHalfSize + 0.5);
-  mTests.rings().forEachIn(farFrom, farTo, &mTests.farReaching(), [&, from = nearFrom, to = nearTo](const EdgeRef& o) {
-    const Coord p = mTests.rings().low(o);
-    const bool near =
-        p[0] >= from[0] && p[0] <= to[0] && p[1] >= from[1] && p[1] <= to[1] && p[2] >= from[2] && p[2] <= to[2];
-    if (!near) test(e, o, out);
+  tbb::parallel_sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::uint8_t> NearFaces::soundWhenTurned(const std::vector<EdgeRef>& edges,
+                                                     const std::vector<Quad>& turned) const {
+  std::vector<std::uint8_t> sound(edges.size());
+  tbb::enumerable_thread_specific<Scratch> scratch;
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    Scratch& own = scratch.local();
+    const Quad& q = turned[i];
+    own.own = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
+    std::vector<Offence> found;
+    forEachBlock(mLevel, 1, [&](std::size_t) { search(edges[i], own, nullptr, found); });
+    sound[i] = found.empty();
   });
+  return sound;
 }
 
 }  // namespace pdc::detail

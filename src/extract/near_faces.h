@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "extract/fans.h"
-#include "extract/quad_rings.h"
-#include "mesh/triangle_pair.h"
+#include "extract/face_tests.h"
+#include "pdc/math/simd_level.h"
 
 namespace pdc::detail {
 
@@ -15,60 +17,50 @@ struct Offence {
   friend auto operator<=>(const Offence&, const Offence&) = default;
 };
 
-/// What is asked of single faces, decided exactly on the mesh's coordinates.
-class FaceTests {
- public:
-  FaceTests(const LatticeMap& map, const QuadRings& rings, const Fans& fans, const Mesh& mesh)
-      : mMap(map), mRings(rings), mFans(fans), mMesh(mesh) {}
-
-  /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
-  [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
-  /// Whether the triangle has an area and looks the way the surface passes the lattice edge.
-  [[nodiscard]] bool facesForward(const EdgeRef& e, const TriangleCorners& t) const;
-
-  /// Tells which edges have faces that may leave the cells about them.
-  void setFarReaching(const std::vector<EdgeRef>& edges) { mFar = EdgeSet(mRings.blockCount(), edges); }
-  [[nodiscard]] const EdgeSet& farReaching() const { return mFar; }
-
-  [[nodiscard]] TriangleCorners corners(const Triangle& t) const {
-    return {mMesh.positions[t[0]], mMesh.positions[t[1]], mMesh.positions[t[2]]};
-  }
-  /// Replaces `out` by the triangles of the edge's quad or fan.
-  void triangles(const EdgeRef& e, std::vector<Triangle>& out) const;
-  [[nodiscard]] const QuadRings& rings() const { return mRings; }
-  [[nodiscard]] const LatticeMap& map() const { return mMap; }
-
- private:
-  const LatticeMap& mMap;
-  const QuadRings& mRings;
-  const Fans& mFans;
-  const Mesh& mMesh;
-  EdgeSet mFar;
-};
-
-/// Finds what a face meets. For one thread.
+/// Finds what faces meet, among all faces near them.
 class NearFaces {
  public:
-  explicit NearFaces(const FaceTests& tests) : mTests(tests) {}
+  /// \param farReaching the edges whose faces may leave the cells about them; sorted.
+  NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching);
 
-  /// Appends the offences of the edge's triangles, against each other and against all others near them. Those between
-  /// two of the `active` edges, which are sorted, are found from the first.
-  void findOffences(const EdgeRef& e, const std::vector<EdgeRef>& active, std::vector<Offence>& out);
+  /// The offences of the triangles of `active`, which is sorted, against each other and against all others near them;
+  /// sorted. Runs in parallel.
+  [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active) const;
+
+  /// For each of some edges whose faces are quads: whether there is no offence if its quad is `turned[i]` instead,
+  /// which has the same corners. Runs in parallel.
+  [[nodiscard]] std::vector<std::uint8_t> soundWhenTurned(const std::vector<EdgeRef>& edges,
+                                                          const std::vector<Quad>& turned) const;
 
  private:
-  struct Face {
-    Triangle vertices;
-    TriangleCorners corners;
+  /// The far-reaching faces of a block.
+  struct FarFaces {
+    std::array<CellMask, 3> edges;
+    double reach = 0;  ///< How far they reach from the low ends of their edges along an axis, in lattice units.
   };
-  [[nodiscard]] bool load(const EdgeRef& e, std::vector<Face>& faces);
-  /// Box of the face's own triangles in lattice units.
-  [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e) const;
-  void test(const EdgeRef& e, const EdgeRef& other, std::vector<Offence>& out);
+  struct Scratch;
+
+  [[nodiscard]] double reachOf(const EdgeRef& e) const;
+  /// Where a vertex is in lattice space; for affine maps.
+  [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
+  [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e, const Scratch& own) const;
+  template <typename Visit>
+  void forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const;
+  template <typename Visit>
+  void forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const;
+  /// Appends the offences of the face in `own`.
+  /// \param foundFrom sorted; offences of a face of these that comes before are left to it. May be null.
+  void search(const EdgeRef& e, Scratch& own, const std::vector<EdgeRef>* foundFrom, std::vector<Offence>& out) const;
+  void compare(const EdgeRef& e, const Scratch& own, std::size_t i, const EdgeRef& other, const Triangle& t,
+               const TriangleCorners& corners, std::vector<Offence>& out) const;
 
   const FaceTests& mTests;
-  std::vector<Triangle> mTriangles;
-  std::vector<Face> mOwn, mOther;
-  Vec3f mLow{}, mHigh{};  ///< Box of the face's own triangles.
+  const SimdLevel mLevel = bestSimdLevel();
+  const Mat3d mToLattice;
+  const Vec3d mOrigin;
+  std::vector<std::int32_t> mFarOf;  ///< Of each block, its place in mFar, or -1.
+  std::vector<FarFaces> mFar;
+  double mLargestReach;
 };
 
 }  // namespace pdc::detail

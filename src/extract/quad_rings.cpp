@@ -4,11 +4,8 @@ namespace pdc::detail {
 
 std::uint64_t QuadRings::face(const EdgeRef& e) const {
   const BlockTopology& b = mTopology.blocks[e.block];
-  std::uint64_t n = b.firstQuad;
-  for (int axis = 0; axis < e.axis(); ++axis) n += static_cast<std::uint64_t>(b.edges[axis].count());
-  const CellMask& own = b.edges[e.axis()];
-  for (int x = 0; x < e.x(); ++x) n += bitCount(own.word[x]);
-  return n + bitCount(own.word[e.x()] & ((std::uint64_t{1} << (8 * e.y() + e.z())) - 1));
+  const std::uint64_t before = (std::uint64_t{1} << (8 * e.y() + e.z())) - 1;
+  return b.firstQuad + b.quadsBefore[kBlockSize * e.axis() + e.x()] + bitCount(b.edges[e.axis()].word[e.x()] & before);
 }
 
 std::array<CellRef, 4> QuadRings::cells(const EdgeRef& e) const {

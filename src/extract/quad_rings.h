@@ -20,29 +20,6 @@ struct CellRef {
   int x, y, z;
 };
 
-/// A set of edges, as bits of their blocks.
-class EdgeSet {
- public:
-  EdgeSet() = default;
-  EdgeSet(std::size_t blocks, const std::vector<EdgeRef>& edges) : mSlot(blocks, -1) {
-    for (const EdgeRef& e : edges) {
-      std::int32_t& slot = mSlot[e.block];
-      if (slot < 0) {
-        slot = static_cast<std::int32_t>(mEdges.size());
-        mEdges.emplace_back();
-      }
-      mEdges[slot][e.axis()].set(e.x(), e.y(), e.z());
-    }
-  }
-  [[nodiscard]] bool hasBlock(std::int32_t block) const { return mSlot[block] >= 0; }
-  /// By axis. \pre hasBlock(block)
-  [[nodiscard]] const std::array<CellMask, 3>& edges(std::int32_t block) const { return mEdges[mSlot[block]]; }
-
- private:
-  std::vector<std::int32_t> mSlot;
-  std::vector<std::array<CellMask, 3>> mEdges;
-};
-
 /// Finds one's way between cells, lattice edges and their quads in a finished topology.
 class QuadRings {
  public:
@@ -62,10 +39,8 @@ class QuadRings {
   /// Calls visit(EdgeRef, edge of the cell) for each of the cell's edges that has a quad.
   template <typename Visit>
   void forEachEdge(const CellRef& c, Visit&& visit) const;
-  /// Calls visit(EdgeRef) for each edge with a quad whose low end lies in the box, borders included, if it is one of
-  /// `among`.
-  template <typename Visit>
-  void forEachIn(const Coord& from, const Coord& to, const EdgeSet* among, Visit&& visit) const;
+  /// The block of a block coordinate, or BlockIndex::kMissing.
+  [[nodiscard]] std::int32_t find(const Coord& block) const { return mTopology.index.find(block); }
 
   [[nodiscard]] int code(const CellRef& c) const { return cellCode(mBlocks.signs[c.block], c.x, c.y, c.z); }
   [[nodiscard]] const BlockTopology& block(std::int32_t i) const { return mTopology.blocks[i]; }
@@ -91,30 +66,6 @@ void QuadRings::forEachEdge(const CellRef& c, Visit&& visit) const {
     if (!mTopology.blocks[owner].edges[axis].test(x & 7, y & 7, z & 7)) continue;
     visit(EdgeRef{owner, static_cast<std::uint16_t>(512 * axis + 64 * (x & 7) + 8 * (y & 7) + (z & 7))}, e);
   }
-}
-
-template <typename Visit>
-void QuadRings::forEachIn(const Coord& from, const Coord& to, const EdgeSet* among, Visit&& visit) const {
-  const Coord first = blockOf(from), last = blockOf(to);
-  for (Coord b = first; b[0] <= last[0]; ++b[0])
-    for (b[1] = first[1]; b[1] <= last[1]; ++b[1])
-      for (b[2] = first[2]; b[2] <= last[2]; ++b[2]) {
-        const std::int32_t block = mTopology.index.find(b);
-        if (block == BlockIndex::kMissing || (among != nullptr && !among->hasBlock(block))) continue;
-        std::array<int, 3> begin, end;
-        for (int i = 0; i < 3; ++i) {
-          begin[i] = std::max(from[i] - kBlockSize * b[i], 0);
-          end[i] = std::min(to[i] - kBlockSize * b[i], kBlockSize - 1);
-        }
-        std::uint64_t wanted = 0;
-        for (int y = begin[1]; y <= end[1]; ++y)
-          wanted |= ((std::uint64_t{2} << end[2]) - (std::uint64_t{1} << begin[2])) << 8 * y;
-        const auto& edges = among != nullptr ? among->edges(block) : mTopology.blocks[block].edges;
-        for (int axis = 0; axis < 3; ++axis)
-          for (int x = begin[0]; x <= end[0]; ++x)
-            for (std::uint64_t w = edges[axis].word[x] & wanted; w != 0; w &= w - 1)
-              visit(EdgeRef{block, static_cast<std::uint16_t>(512 * axis + 64 * x + std::countr_zero(w))});
-      }
 }
 
 }  // namespace pdc::detail

@@ -36,7 +36,8 @@ Mesh contourWithoutRule(const SignSource& source) {
   return mesh;
 }
 
-// Every sign pattern of the 3×3×2 points about a lattice edge, as a closed solid of its own.
+// Every sign pattern of the 3×3×2 points about a lattice edge, as a closed solid of its own. Random grids are in
+// certify_test.cpp.
 TEST(Manifold, AllNeighbourhoodsOfAnEdge) {
   constexpr unsigned kPatterns = 1u << 18;
   constexpr unsigned kPerVolume = kPerAxis * kPerAxis * kPerAxis;
@@ -47,20 +48,6 @@ TEST(Manifold, AllNeighbourhoodsOfAnEdge) {
     });
     expectClosed(analyze(contour(source, {.sigmaNormal = 0.1})));
     if (HasFailure()) FAIL() << "patterns from " << first;
-  }
-}
-
-TEST(Manifold, RandomGrids) {
-  std::mt19937 engine(1);
-  constexpr int kGrids = 100'000, kPerVolume = kPerAxis * kPerAxis * kPerAxis;
-  for (int done = 0; done < kGrids; done += kPerVolume) {
-    const double density = std::array{0.3, 0.5, 0.7}[done / kPerVolume % 3];
-    ContourReport report;
-    const MeshReport mesh = analyze(contour(randomGrids(engine, density), {.sigmaNormal = 0.1}, &report));
-    expectClosed(mesh);
-    EXPECT_EQ(report.boundaryEdges, 0u);
-    EXPECT_GT(report.multiVertexCells, 0u);
-    if (HasFailure()) FAIL() << "grids from " << done;
   }
 }
 
@@ -90,7 +77,10 @@ TEST(Manifold, TrianglesAreTheQuadsSplit) {
   std::mt19937 engine(3);
   const SignSource source = randomGrids(engine, 0.5);
   const Mesh quads = contour(source), triangles = contour(source, {.triangles = true});
-  ASSERT_EQ(triangles.triangles.size(), 2 * quads.quads.size());
+  const std::size_t split = 2 * quads.quads.size();
+  ASSERT_FALSE(quads.triangles.empty()) << "no fans";
+  ASSERT_EQ(triangles.triangles.size(), split + quads.triangles.size());
+  EXPECT_TRUE(std::equal(quads.triangles.begin(), quads.triangles.end(), triangles.triangles.begin() + split));
   expectClosed(analyze(triangles));
   for (std::size_t i = 0; i < quads.quads.size(); ++i) {
     const Quad& q = quads.quads[i];

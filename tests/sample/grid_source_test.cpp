@@ -73,7 +73,8 @@ TEST_F(GridSourceTest, HasOneFaceForEachOfVolumeToMesh) {
     peer(*grid);
     std::size_t quads = 0;
     for (std::size_t i = 0; i < peer.polygonPoolListSize(); ++i) quads += peer.polygonPoolList()[i].numQuads();
-    EXPECT_EQ(contour(GridSource(grid)).quads.size(), quads) << radius;
+    // Certified meshes have fans of triangles in the place of a few quads.
+    EXPECT_EQ(contour(GridSource(grid), {.placement = Placement::kFree}).quads.size(), quads) << radius;
   }
 }
 

@@ -1,0 +1,49 @@
+#include "extract/face_tests.h"
+
+#include <utility>
+
+#include "pdc/math/predicates.h"
+
+namespace pdc::detail {
+namespace {
+
+/// The ends of the edge in lattice space, the one inside first.
+std::pair<Vec3d, Vec3d> insideToOutside(const QuadRings& rings, const EdgeRef& e) {
+  const Coord low = rings.low(e);
+  Vec3d from{double(low[0]), double(low[1]), double(low[2])}, to = from;
+  to[e.axis()] += 1;
+  if (!rings.lowInside(e)) std::swap(from, to);
+  return {from, to};
+}
+
+}  // namespace
+
+bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
+  const auto [from, to] = insideToOutside(mRings, e);
+  const Vec3d behind = mMap.position(from), before = mMap.position(to);
+  const auto p = [&](int i) { return vecCast<double>(mMesh.positions[quad[i]]); };
+  const auto crossed = [&](int a, int b, int c) {
+    return orient3d(p(a), p(b), p(c), behind) < 0 && orient3d(p(a), p(b), p(c), before) > 0;
+  };
+  return crossed(0, 1, 2) && crossed(0, 2, 3);
+}
+
+bool FaceTests::facesForward(const EdgeRef& e, const TriangleCorners& t) const {
+  const auto [from, to] = insideToOutside(mRings, e);
+  const Vec3d d = mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
+  const Vec3d p = vecCast<double>(t[0]);
+  const Vec3d u = vecCast<double>(t[1]) - p, v = vecCast<double>(t[2]) - p;
+  // Differences of floats are exact or nearly so; what is left is far below this share.
+  constexpr double kRounding = 1e-14;
+  return dot(cross(u, v), d) > kRounding * length(u) * length(v) * length(d);
+}
+
+void FaceTests::triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const {
+  out.clear();
+  const Quad* q = quad(face);
+  if (q == nullptr) return mFans.triangles(e, out);
+  out.push_back({(*q)[0], (*q)[1], (*q)[2]});
+  out.push_back({(*q)[0], (*q)[2], (*q)[3]});
+}
+
+}  // namespace pdc::detail

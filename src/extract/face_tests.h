@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "extract/fans.h"
+#include "extract/quad_rings.h"
+#include "mesh/triangle_pair.h"
+
+namespace pdc::detail {
+
+/// What is asked of single faces, decided exactly on the mesh's coordinates.
+class FaceTests {
+ public:
+  FaceTests(const LatticeMap& map, const QuadRings& rings, const Fans& fans, const Mesh& mesh)
+      : mMap(map), mRings(rings), mFans(fans), mMesh(mesh) {}
+
+  /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
+  [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
+  /// Whether the triangle has an area and looks the way the surface passes the lattice edge.
+  [[nodiscard]] bool facesForward(const EdgeRef& e, const TriangleCorners& t) const;
+
+  template <std::size_t n>
+  [[nodiscard]] std::array<Vec3f, n> corners(const std::array<std::uint32_t, n>& vertices) const {
+    std::array<Vec3f, n> p;
+    for (std::size_t i = 0; i < n; ++i) p[i] = mMesh.positions[vertices[i]];
+    return p;
+  }
+  /// The quad that a face is, or null if it is a fan.
+  [[nodiscard]] const Quad* quad(std::uint64_t face) const { return mFans.has(face) ? nullptr : &mMesh.quads[face]; }
+  /// Replaces `out` by the triangles of face number `face`, the quad or fan of the edge.
+  void triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const;
+
+  [[nodiscard]] const QuadRings& rings() const { return mRings; }
+  [[nodiscard]] const LatticeMap& map() const { return mMap; }
+
+ private:
+  const LatticeMap& mMap;
+  const QuadRings& mRings;
+  const Fans& mFans;
+  const Mesh& mMesh;
+};
+
+}  // namespace pdc::detail
