@@ -22,6 +22,20 @@ void build(SimdLevel level, std::span<Out> out, const F& make) {
   });
 }
 
+/// How far ahead solving asks for memory. A million systems are solved, relative to one by one in the same run, in
+/// double precision 0.7 to 1.1 times as fast without, 1.7 with 2.5 KB, 1.5 with 5 KB, 1.3 with 10 KB; in single
+/// precision 3.3, 3.3 with 2.5 KB and 3.7 with 5 KB. In cache it makes no difference.
+constexpr std::size_t kPrefetchBytes = 5120;
+
+/// Asks for the block that will be needed in a while.
+template <typename Lanes>
+void prefetchAhead(std::span<const Lanes> blocks, std::size_t i) {
+  constexpr std::size_t kAhead = kPrefetchBytes / sizeof(Lanes), kCacheLine = 64;
+  if (i + kAhead >= blocks.size()) return;
+  const auto* const block = reinterpret_cast<const char*>(&blocks[i + kAhead]);
+  for (std::size_t k = 0; k < sizeof(Lanes); k += kCacheLine) __builtin_prefetch(block + k);
+}
+
 /// Blocks that are summed one after the other; the rounding of so few does not matter beside that of the quadrics.
 constexpr std::size_t kSumRun = 64;
 
@@ -155,6 +169,7 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
   detail::forEachBlock(level, systems.size(), [=](std::size_t i) {
     const Lanes& block = systems[i];
     SolutionLanes<T>& solution = solutions[i];
+    prefetchAhead(systems, i);
     // Two loops with scalars of one size: compilers put the selection into branches, or stumble over the bytes,
     // otherwise.
     T keep[kLanes];

@@ -59,37 +59,50 @@ TEST(Allocations, OneByOneMakesNone) {
   EXPECT_EQ(allocationsOf([&] {
               auto f = pointQuadric(p) + planeQuadric(p, n) + probabilisticPlaneQuadric(p, n, S, S);
               f += probabilisticPlaneQuadric(q, n, 0.1, 0.1) - planeQuadric(q, n);
+              f -= probabilisticPlaneQuadric(q, n, tangentialCovariance(n, 0.1)) * 0.01;
+              f += probabilisticTriangleQuadric(p, q, r, 0.1, 0.2, 0.3);
               f += triangleQuadric(p, q, r) + probabilisticTriangleQuadric(p, q, r, 0.1) * 2.0;
               f += probabilisticTriangleQuadric(p, q, r, S, S, S).relativeTo(p).pullback(Mat3d{}, q);
               f += sampleExpectedQuadric(10, [&] { return pointQuadric(random.point()); }).mean;
               x = solveLdlt(f.A, f.b).value() + minimizeNear(f, p, 1e-3);
               x += minimizeInBox(f.A, f.b, x, {{-1e-3, -1e-3, -1e-3}, {1e-3, 1e-3, 1e-3}});
+              x += minimizeInCube(f.A, f.b, x, 1e-3) + f.halfGradient(x) * f(x);
+              x += (f.normalEquations() + NormalEquations<double>::zero()).b + eigenSymmetric(f.A).vector[0];
               x *= solveQuality(f.A, 1e-3).condition + solutionCovariance(f.A, 1)->trace();
             }),
             0);
   EXPECT_NE(x, Vec3d{});
 }
 
-TEST(Allocations, BatchesMakeNone) {
-  const std::vector<PlaneLanes<float>> planes(100, PlaneLanes<float>{});
-  const std::vector<TriangleLanes<float>> triangles(100, TriangleLanes<float>{});
-  const std::vector<SymMat3Lanes<float>> Sigma(100, SymMat3Lanes<float>{});
-  const std::vector<TriangleCovarianceLanes<float>> Sigmas(100, TriangleCovarianceLanes<float>{});
-  std::vector<QuadricLanes<float>> quadrics(100);
-  std::vector<SolutionLanes<float>> solutions(100);
+template <typename T>
+void expectBatchesMakeNone() {
+  const std::vector<PlaneLanes<T>> planes(100, PlaneLanes<T>{});
+  const std::vector<TriangleLanes<T>> triangles(100, TriangleLanes<T>{});
+  const std::vector<Vec3Lanes<T>> sigmas(100, Vec3Lanes<T>{});
+  const std::vector<SymMat3Lanes<T>> Sigma(100, SymMat3Lanes<T>{});
+  const std::vector<TriangleCovarianceLanes<T>> Sigmas(100, TriangleCovarianceLanes<T>{});
+  std::vector<QuadricLanes<T>> quadrics(100);
+  std::vector<SolutionLanes<T>> solutions(100);
   const std::span out(quadrics);
   EXPECT_EQ(allocationsOf([&] {
               planeQuadrics(planes, out);
-              probabilisticPlaneQuadrics(planes, 0.1F, 0.1F, out);
+              probabilisticPlaneQuadrics(planes, T(0.1), T(0.1), out);
               probabilisticPlaneQuadrics(planes, Sigma, out);
+              probabilisticPlaneQuadrics<T>(planes, Sigma, Sigma, out);
               triangleQuadrics(triangles, out);
               probabilisticTriangleQuadrics(triangles, Sigmas, out);
-              probabilisticTriangleQuadrics(triangles, 0.1F, out);
-              addQuadrics<QuadricLanes<float>>(quadrics, out);
-              solveLdlt<QuadricLanes<float>>(quadrics, solutions);
-              quadrics[0].c[0] += sumQuadrics<float>(quadrics).c;
+              probabilisticTriangleQuadrics(triangles, sigmas, out);
+              probabilisticTriangleQuadrics(triangles, T(0.1), out);
+              addQuadrics<QuadricLanes<T>>(quadrics, out);
+              solveLdlt<QuadricLanes<T>>(quadrics, solutions);
+              quadrics[0].c[0] += sumQuadrics<T>(quadrics).c;
             }),
             0);
+}
+
+TEST(Allocations, BatchesMakeNone) {
+  expectBatchesMakeNone<float>();
+  expectBatchesMakeNone<double>();
 }
 
 }  // namespace

@@ -144,6 +144,10 @@ TEST(Quadric, NoiseOfThePositionsMovesNoMinimiser) {
     const auto f = probabilisticPlaneQuadric(q, n, Sigma_n), g = probabilisticPlaneQuadric(q, n, Sigma_n, Sigma_q);
     EXPECT_EQ(f.A, g.A);
     EXPECT_EQ(f.b, g.b);
+    const auto iso = probabilisticPlaneQuadric(q, n, 0.2), noisy = probabilisticPlaneQuadric(q, n, 0.2, 1.0);
+    EXPECT_EQ(iso.A, noisy.A);
+    EXPECT_EQ(iso.b, noisy.b);
+    EXPECT_NEAR(noisy.c - iso.c, 1 + 3 * 0.2 * 0.2, 1e-12 * (1 + noisy.c));
     // The floor of the constant: what is left at q itself.
     EXPECT_NEAR(g(q), quadraticForm(Sigma_q, n) + traceOfProduct(Sigma_n, Sigma_q), 1e-12 * (1 + g.c));
   }

@@ -61,8 +61,8 @@ TEST(CrossInterference, IsSymmetricInItsArgumentsAndTwoForIdentities) {
   EXPECT_EQ(crossInterference(Sym::identity(), Sym::identity()), Sym::identity() * 2.0);
   for (int i = 0; i < 100; ++i) {
     const Sym A = random.covariance(1), B = random.covariance(1), C = random.covariance(1);
-    const Sym d = crossInterference(A, B) - crossInterference(B, A);
-    EXPECT_LT(quadraticForm(d, {1, 1, 1}), 1e-12);
+    const Quadric<double> AB{crossInterference(A, B), {}, 0}, BA{crossInterference(B, A), {}, 0};
+    EXPECT_LT(largestDifference(AB, BA), 1e-14 * A.trace() * B.trace());
     const double t = traceOfProduct(C, crossInterference(A, B));
     EXPECT_NEAR(traceOfProduct(A, crossInterference(B, C)), t, 1e-12 * t);
     EXPECT_NEAR(traceOfProduct(B, crossInterference(C, A)), t, 1e-12 * t);
@@ -126,7 +126,9 @@ TEST(ProbabilisticTriangle, FormsAgreeWhereTheyOverlap) {
     const auto full = probabilisticTriangleQuadric(p, q, r, I * (sp * sp), I * (sq * sq), I * (sr * sr));
     const double size = full.A.trace() * (1 + dot(p, p));
     EXPECT_LT(largestDifference(full, probabilisticTriangleQuadric(p, q, r, sp, sq, sr)), 1e-13 * size);
-    EXPECT_EQ(probabilisticTriangleQuadric(p, q, r, sp), probabilisticTriangleQuadric(p, q, r, sp, sp, sp));
+    const auto equal = probabilisticTriangleQuadric(p, q, r, sp, sp, sp);
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(p, q, r, sp), equal),
+              1e-13 * equal.A.trace() * (1 + dot(p, p)));
   }
 }
 
@@ -140,6 +142,7 @@ TEST(ProbabilisticTriangle, WithoutNoiseIsTheClassicalOne) {
     const double size = classical.A.trace() * (1 + dot(p, p));
     EXPECT_LT(largestDifference(t.quadric(), classical), 1e-14 * size);
     EXPECT_LT(largestDifference(probabilisticTriangleQuadric(p, q, r, 0.0), classical), 1e-14 * size);
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(p, q, r, 0.0, 0.0, 0.0), classical), 1e-14 * size);
   }
 }
 
@@ -157,6 +160,20 @@ TEST(ProbabilisticTriangle, IsSymmetricInTheCorners) {
   }
 }
 
+TEST(ProbabilisticTriangle, IsSymmetricInTheCornersWhereIsotropic) {
+  RandomGeometry random(16);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p = random.point(), q = random.point(), r = random.point();
+    const double sp = random.uniform(0, 1), sq = random.uniform(0, 1), sr = random.uniform(0, 1);
+    const auto f = probabilisticTriangleQuadric(p, q, r, sp, sq, sr), g = probabilisticTriangleQuadric(p, q, r, sp);
+    const double size = 1e-12 * (1 + f.A.trace() + g.A.trace()) * (1 + dot(p, p) + dot(q, q));
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(q, r, p, sq, sr, sp), f), size);
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(q, p, r, sq, sp, sr), f), size);
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(q, r, p, sp), g), size);
+    EXPECT_LT(largestDifference(probabilisticTriangleQuadric(q, p, r, sp), g), size);
+  }
+}
+
 TEST(ProbabilisticTriangle, MovesWithItsCorners) {
   RandomGeometry random(11);
   for (int i = 0; i < 1000; ++i) {
@@ -169,6 +186,14 @@ TEST(ProbabilisticTriangle, MovesWithItsCorners) {
     const Mat3d M = random.matrix();
     const double squeezed = before * M.determinant() * M.determinant();
     EXPECT_NEAR(t.moved(M, shift).quadric()(M * x + shift), squeezed, 1e-9 * (1 + squeezed) * (1 + before));
+    // Rotations leave isotropic noise as it is.
+    const auto& [p, q, r] = t.corner;
+    const auto& [mp, mq, mr] = t.moved(R, shift).corner;
+    const double perVertex = probabilisticTriangleQuadric(p, q, r, 0.1, 0.2, 0.3)(x);
+    EXPECT_NEAR(probabilisticTriangleQuadric(mp, mq, mr, 0.1, 0.2, 0.3)(R * x + shift), perVertex,
+                1e-10 * (1 + perVertex));
+    const double isotropic = probabilisticTriangleQuadric(p, q, r, 0.2)(x);
+    EXPECT_NEAR(probabilisticTriangleQuadric(mp, mq, mr, 0.2)(R * x + shift), isotropic, 1e-10 * (1 + isotropic));
   }
 }
 
@@ -176,11 +201,19 @@ TEST(ProbabilisticTriangle, ScalesWithTheUnitOfLength) {
   RandomGeometry random(12);
   for (const double L : {0x1p-10, 0x1p-3, 0x1p4, 0x1p10}) {
     const Triangle t = Triangle::random(random);
-    const auto f = t.quadric(), g = t.moved(Mat3d::diagonal(L, L, L), Vec3d{}).quadric();
+    const auto& [p, q, r] = t.corner;
     // Powers of two only shift exponents.
-    EXPECT_EQ(g.A, f.A * (L * L * L * L));
-    EXPECT_EQ(g.b, f.b * (L * L * L * L * L));
-    EXPECT_EQ(g.c, f.c * (L * L * L * L * L * L));
+    const auto expectScaled = [L](const Quadric<double>& g, const Quadric<double>& f) {
+      EXPECT_EQ(g.A, f.A * (L * L * L * L));
+      EXPECT_EQ(g.b, f.b * (L * L * L * L * L));
+      EXPECT_EQ(g.c, f.c * (L * L * L * L * L * L));
+    };
+    expectScaled(t.moved(Mat3d::diagonal(L, L, L), Vec3d{}).quadric(), t.quadric());
+    expectScaled(triangleQuadric(p * L, q * L, r * L), t.classical());
+    expectScaled(probabilisticTriangleQuadric(p * L, q * L, r * L, 0.2 * L),
+                 probabilisticTriangleQuadric(p, q, r, 0.2));
+    expectScaled(probabilisticTriangleQuadric(p * L, q * L, r * L, 0.1 * L, 0.2 * L, 0.3 * L),
+                 probabilisticTriangleQuadric(p, q, r, 0.1, 0.2, 0.3));
   }
 }
 
@@ -191,6 +224,17 @@ TEST(ProbabilisticTriangle, TheMinimiserBeatsRandomPoints) {
   const auto x = solveLdlt(f.A, f.b);
   ASSERT_TRUE(x);
   for (int i = 0; i < 10'000; ++i) EXPECT_LT(f(*x), f(*x + random.point() * 0.1));
+}
+
+TEST(ProbabilisticTriangle, WithOneSigmaHasItsMinimumAtTheCentroid) {
+  RandomGeometry random(17);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p = random.point(), q = random.point(), r = random.point(), centroid = (p + q + r) * (1.0 / 3);
+    const auto one = probabilisticTriangleQuadric(p, q, r, 0.2),
+               each = probabilisticTriangleQuadric(p, q, r, 0.2, 0.2, 0.2);
+    EXPECT_LT(length(one.halfGradient(centroid)), 1e-13 * one.A.trace() * (1 + length(p)));
+    EXPECT_LT(length(each.halfGradient(centroid)), 1e-13 * each.A.trace() * (1 + length(p)));
+  }
 }
 
 TEST(ProbabilisticTriangle, IsPositiveDefiniteWhereTheCornersAreCollinear) {
