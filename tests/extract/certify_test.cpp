@@ -5,28 +5,10 @@
 #include <cstdlib>
 
 #include "extract/packed_signs.h"
-#include "pdc/extract/contour.h"
-#include "pdc/mesh/mesh_report.h"
-#include "pdc/mesh/self_intersections.h"
+#include "extract/sound_checks.h"
 
 namespace pdc {
 namespace {
-
-void expectSound(const Mesh& mesh, const ContourReport& report) {
-  EXPECT_EQ(report.uncertified, 0u);
-  const MeshReport facts = analyze(mesh);
-  EXPECT_EQ(facts.boundaryEdges, 0u);
-  EXPECT_EQ(facts.nonManifoldEdges, 0u);
-  EXPECT_EQ(facts.nonManifoldVertices, 0u);
-  EXPECT_EQ(facts.misorientedEdges, 0u);
-  EXPECT_EQ(facts.duplicateFaces, 0u);
-  EXPECT_EQ(facts.unusedVertices, 0u);
-  EXPECT_EQ(facts.eulerNumber % 2, 0);
-  EXPECT_GT(facts.volume, 0);
-  const SelfIntersections found = selfIntersections(mesh);
-  EXPECT_EQ(found.pairs.size(), 0u);
-  EXPECT_EQ(found.degenerateTriangles, 0u);
-}
 
 class CertifyTest : public testing::TestWithParam<Placement> {};
 
