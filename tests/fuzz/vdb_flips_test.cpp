@@ -7,6 +7,7 @@
 
 #include "fuzz/forked.h"
 #include "fuzz/mutate.h"
+#include "fuzz/targets.h"
 #include "io/temporary_folder.h"
 #include "pdc/io/vdb_reader.h"
 
@@ -64,13 +65,18 @@ void readDamaged(const fs::path& path) {
     if (info.contourable) static_cast<void>(readVdbGrid(path, info.name));
 }
 
-TEST(VdbFlips, TwoThousandDamagedFilesGiveAGridOrAnError) {
-  const TemporaryFolder folder;
+std::vector<std::string> makeFiles(const TemporaryFolder& folder) {
   // In a child, because writing grids starts threads, which do not survive a fork.
   const ForkedResult written = runForked(1, 1, [&](std::size_t) { writeFiles(folder.path()); });
-  ASSERT_EQ(written.successes, 1u) << written.failure;
+  EXPECT_EQ(written.successes, 1u) << written.failure;
   std::vector<std::string> files;
   for (std::size_t i = 0; i < kFiles; ++i) files.push_back(contentsOf(folder / std::to_string(i)));
+  return files;
+}
+
+TEST(VdbFlips, TwoThousandDamagedFilesGiveAGridOrAnError) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> files = makeFiles(folder);
 
   const ForkedResult whole = runForked(kFiles, kFiles, [&](std::size_t i) { readDamaged(folder / std::to_string(i)); });
   ASSERT_EQ(whole.successes, kFiles) << whole.failure;
@@ -86,6 +92,16 @@ TEST(VdbFlips, TwoThousandDamagedFilesGiveAGridOrAnError) {
   EXPECT_EQ(result.successes + result.errors, kAttempts);
   EXPECT_GT(result.successes, kAttempts / 20) << "damage to values alone passes";
   EXPECT_GT(result.errors, kAttempts / 4);
+}
+
+TEST(VdbFlips, WhatIsReadFromDamagedFilesGivesSoundMeshes) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> files = makeFiles(folder);
+  constexpr std::size_t kAttempts = 300, kPerChild = 50;
+  const ForkedResult result = runForked(
+      kAttempts, kPerChild, [&](std::size_t i) { fuzzVdb(mutate(files[i % kFiles], static_cast<std::uint32_t>(i))); });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.successes, kAttempts / 20);
 }
 
 }  // namespace

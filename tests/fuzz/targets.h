@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace pdc {
+
+// What fuzzers feed bytes to. Each reads the bytes as a file and contours what is in it, coarsely; a mesh that is not
+// closed and manifold ends the process. \throws Error where the bytes are refused.
+
+void fuzzScene(std::string_view bytes);
+void fuzzVdb(std::string_view bytes);
+
+}  // namespace pdc
