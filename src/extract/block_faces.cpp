@@ -4,25 +4,20 @@
 #include <cstring>
 
 #include "extract/cell_rounding.h"
-#include "extract/float4.h"
+#include "extract/cell_vertices.h"
+#include "extract/float_lanes.h"
 #include "extract/quad_rings.h"
 #include "math/lane_loops.h"
 
 namespace pdc::detail {
 namespace {
 
-Float4 load(const float* p) {
-  Float4 v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-
 /// A VertexError, or a sum of some, in three registers.
 struct PackedError {
   explicit PackedError(const VertexError& e) {
     static_assert(sizeof e == 12 * sizeof(float));
     const auto* p = reinterpret_cast<const float*>(&e);
-    v[0] = load(p), v[1] = load(p + 4), v[2] = load(p + 8);
+    v[0] = loadFloat4(p), v[1] = loadFloat4(p + 4), v[2] = loadFloat4(p + 8);
   }
   friend PackedError operator+(PackedError a, const PackedError& b) {
     for (int i = 0; i < 3; ++i) a.v[i] += b.v[i];
@@ -52,19 +47,16 @@ Vec3f column(const SymMat3<float>& A) {
 ///
 /// About the edge's low end that sum is mᵀSm − 2hᵀm with S = ΣAₖ and h = Σ(Aₖrₖ + bₖ), where rₖ, a corner of a cube of
 /// edge 1, is the centre of cell k. With s and t twice the middles, the errors differ by a quarter of
-/// (s − t)ᵀ(S(s + t) − 4h), and in 4h the rₖ turn into signs.
+/// (s − t)ᵀ(S(s + t) − 4h). In 4h the rₖ turn into signs, and half along the axis, which all of them have and s + t has
+/// four times, drops out: vertices may be taken from the centres of their cells.
 template <int axis>
 bool splitsAtFirst(const std::array<const VertexError*, 4>& error) {
   const PackedError e0(*error[0]), e1(*error[1]), e2(*error[2]), e3(*error[3]);
   const PackedError e02 = e0 + e2, e13 = e1 + e3, sum = e02 + e13;
-  const PackedError alongU = (e0 - e2) - (e1 - e3), alongV = (e0 - e2) + (e1 - e3);
-  const SymMat3<float> S = sum.A();
-  const Vec3f h4 = sum.b() * 4.0F +
-                   (column<axis>(S) + column<(axis + 1) % 3>(alongU.A()) + column<(axis + 2) % 3>(alongV.A())) * 2.0F;
+  const PackedError p = e0 - e2, q = e1 - e3, alongU = p - q, alongV = p + q;
+  const Vec3f h4 = sum.b() * 4.0F + (column<(axis + 1) % 3>(alongU.A()) + column<(axis + 2) % 3>(alongV.A())) * 2.0F;
   const Vec3f difference = e02.x() - e13.x();
-  Vec3f total = sum.x();
-  total[axis] += 2.0F;
-  return !(dot(difference, S * total - h4) > 0);
+  return !(dot(difference, sum.A() * sum.x() - h4) > 0);
 }
 
 /// Whether the lattice edge passes from behind to before the planes of both triangles of a quad that is split along the
@@ -97,14 +89,37 @@ float volumeDoubt(const LatticeMap& map, const Coord& block) {
 }  // namespace
 
 inline void BlockFaceWriter::write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const {
-  const Quad q = splitsAtFirst ? (reversed ? Quad{v[0], v[3], v[2], v[1]} : v)
-                               : (reversed ? Quad{v[1], v[0], v[3], v[2]} : Quad{v[1], v[2], v[3], v[0]});
+  // Selections, not branches: neither side can be foreseen.
+  const unsigned start = splitsAtFirst ? 0 : 1, step = reversed ? 3 : 1;
+  Quad q;
+  for (unsigned k = 0; k < 4; ++k) q[k] = v[(start + k * step) & 3];
   mQuads[face] = q;
 }
 
+namespace {
+
+/// As CellVertices, for any block.
 template <int axis>
-void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doubts* doubts, std::uint64_t face) const {
-  constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
+Quad ringOf(const Topology& topology, const BlockTopology& own, int x, int y, int z) {
+  Quad ring;
+  for (int k = 0; k < 4; ++k) {
+    const auto [du, dv] = kRing[k];
+    Coord c{x, y, z};
+    c[(axis + 1) % 3] -= du;
+    c[(axis + 2) % 3] -= dv;
+    const int lower = (c[0] < 0) << 2 | (c[1] < 0) << 1 | (c[2] < 0);
+    const BlockTopology& b = lower == 0 ? own : topology.blocks[own.lower[lower]];
+    ring[k] = static_cast<std::uint32_t>(b.vertexAt(c[0] & 7, c[1] & 7, c[2] & 7, ringEdge(axis, k)));
+  }
+  return ring;
+}
+
+}  // namespace
+
+template <int axis>
+void BlockFaceWriter::runAxis(std::size_t block, const CellVertices& vertices, const ErrorWindow& errors,
+                              Doubts* doubts, std::uint64_t face) const {
+  constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
   const BlockTopology& own = mTopology.blocks[block];
   const BlockSigns& signs = mBlocks.signs[block];
   const float doubt = doubts != nullptr ? volumeDoubt(mMap, mBlocks.coords[block]) : 0.0F;
@@ -112,18 +127,14 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doub
     for (std::uint64_t w = own.edges[axis].word[x]; w != 0; w &= w - 1) {
       const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
       Quad ring;
-      std::array<const VertexError*, 4> error;
-      for (int k = 0; k < 4; ++k) {
-        const auto [du, dv] = kRing[k];
-        Coord c{x, y, z};
-        c[u] -= du;
-        c[v] -= dv;
-        const int lower = (c[0] < 0) << 2 | (c[1] < 0) << 1 | (c[2] < 0);
-        const BlockTopology& b = lower == 0 ? own : mTopology.blocks[own.lower[lower]];
-        const std::uint64_t vertex = b.vertexAt(c[0] & 7, c[1] & 7, c[2] & 7, 4 * axis + du + 2 * dv);
-        ring[k] = static_cast<std::uint32_t>(vertex);
-        error[k] = &errors[vertex];
+      if (vertices.allSimple()) {
+        const std::uint32_t* at = vertices.at(x, y, z);
+        for (int k = 0; k < 4; ++k) ring[k] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
+      } else {
+        ring = ringOf<axis>(mTopology, own, x, y, z);
       }
+      std::array<const VertexError*, 4> error;
+      for (int k = 0; k < 4; ++k) error[k] = &errors[ring[k]];
       bool first = splitsAtFirst<axis>(error);
       if (doubts != nullptr && !passes<axis>(error, first, doubt)) {
         if (passes<axis>(error, !first, doubt)) {
@@ -141,10 +152,11 @@ void BlockFaceWriter::runAxis(std::size_t block, const ErrorWindow& errors, Doub
 void BlockFaceWriter::run(std::size_t block, const ErrorWindow& errors, Doubts* doubts) const {
   forEachBlock(mLevel, 1, [&](std::size_t) {
     const BlockTopology& own = mTopology.blocks[block];
+    const CellVertices vertices(mTopology, own);
     const auto x = own.firstQuad, y = x + own.edges[0].count(), z = y + own.edges[1].count();
-    runAxis<0>(block, errors, doubts, x);
-    runAxis<1>(block, errors, doubts, y);
-    runAxis<2>(block, errors, doubts, z);
+    runAxis<0>(block, vertices, errors, doubts, x);
+    runAxis<1>(block, vertices, errors, doubts, y);
+    runAxis<2>(block, vertices, errors, doubts, z);
   });
 }
 

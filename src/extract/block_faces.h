@@ -18,6 +18,8 @@ struct ErrorWindow {
   }
 };
 
+class CellVertices;
+
 /// Writes the faces of blocks whose vertices and lower neighbours' vertices are solved: quad i of the topology to
 /// quads[i]. Each starts at the corner that puts its diagonal where the summed
 /// quadric error of its vertices, taken at the diagonal's midpoint, is smaller: shorter or smaller diagonals cut
@@ -34,7 +36,8 @@ class BlockFaceWriter {
 
  private:
   template <int axis>
-  void runAxis(std::size_t block, const ErrorWindow& errors, Doubts* doubts, std::uint64_t face) const;
+  void runAxis(std::size_t block, const CellVertices& vertices, const ErrorWindow& errors, Doubts* doubts,
+               std::uint64_t face) const;
   void write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const;
 
   const SurfaceBlocks& mBlocks;

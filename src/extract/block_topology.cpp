@@ -39,14 +39,58 @@ struct PointLayer {
   std::uint64_t here = 0, y = 0, z = 0, yz = 0;
 };
 
+/// Faces with two inside corners that face each other, from the corners' signs in ring order.
+std::uint64_t ambiguousFaces(std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
+  return ~(a ^ c) & ~(b ^ d) & (a ^ b);
+}
+
+/// Corners that differ from all their neighbours and are like the one across the cell.
+std::uint64_t loneCorners(std::uint64_t c, std::uint64_t across, std::uint64_t n0, std::uint64_t n1, std::uint64_t n2) {
+  return ~(c ^ across) & (c ^ n0) & (c ^ n1) & (c ^ n2);
+}
+
+/// Among the 64 cells between two layers all that are strict (see CellEntry), and few others.
+std::uint64_t mayBeStrict(const PointLayer& l, const PointLayer& h) {
+  return ambiguousFaces(l.here, l.y, l.yz, l.z) | ambiguousFaces(h.here, h.y, h.yz, h.z) |
+         ambiguousFaces(l.here, l.z, h.z, h.here) | ambiguousFaces(l.y, l.yz, h.yz, h.y) |
+         ambiguousFaces(l.here, l.y, h.y, h.here) | ambiguousFaces(l.z, l.yz, h.yz, h.z) |
+         loneCorners(l.here, h.yz, l.y, l.z, h.here) | loneCorners(l.y, h.z, l.here, l.yz, h.y) |
+         loneCorners(l.z, h.y, l.here, l.yz, h.z) | loneCorners(l.yz, h.here, l.y, l.z, h.yz);
+}
+
+/// Finds the seven blocks below each of a run of ascending blocks in the sorted list.
+class LowerBlocks {
+ public:
+  LowerBlocks(const std::vector<Coord>& blocks, std::size_t first) : mBlocks(blocks) {
+    for (int i = 1; i < 8; ++i)
+      mNext[i] = static_cast<std::size_t>(std::lower_bound(blocks.begin(), blocks.end(), below(blocks[first], i)) -
+                                          blocks.begin());
+  }
+  /// Entry 4dx + 2dy + dz is the block at -(dx, dy, dz). Blocks must come in ascending order.
+  void find(std::size_t block, std::array<std::int32_t, 8>& lower) {
+    lower[0] = static_cast<std::int32_t>(block);
+    for (int i = 1; i < 8; ++i) {
+      const Coord wanted = below(mBlocks[block], i);
+      while (mBlocks[mNext[i]] < wanted) ++mNext[i];  // Stops at the block itself at the latest.
+      lower[i] = mBlocks[mNext[i]] == wanted ? static_cast<std::int32_t>(mNext[i]) : BlockIndex::kMissing;
+    }
+  }
+
+ private:
+  static Coord below(const Coord& b, int i) { return {b[0] - (i >> 2), b[1] - (i >> 1 & 1), b[2] - (i & 1)}; }
+
+  const std::vector<Coord>& mBlocks;
+  std::array<std::size_t, 8> mNext{};
+};
+
 /// Counts one block. Cells up to one beyond the block on each side are reached through the neighbouring blocks.
 class BlockCounter {
  public:
   BlockCounter(const SurfaceBlocks& blocks, const BlockIndex& index, FlipRule rule, std::size_t i, BlockTopology& out)
       : mBlocks(blocks), mIndex(index), mRule(rule), mCoord(blocks.coords[i]), mSigns(blocks.signs[i]), mOut(out) {}
 
+  /// \pre the block's lower neighbours are known.
   void run() {
-    findLowerNeighbours();
     findCellsAndEdges();
     if (mBlocks.open) dropIncompleteEdges();
     findSpecialCells();
@@ -65,11 +109,6 @@ class BlockCounter {
   }
 
  private:
-  void findLowerNeighbours() {
-    for (int i = 0; i < 8; ++i)
-      mOut.lower[i] = mIndex.find({mCoord[0] - (i >> 2), mCoord[1] - (i >> 1 & 1), mCoord[2] - (i & 1)});
-  }
-
   void findCellsAndEdges() {
     PointLayer below, above(mSigns, 0);
     for (int x = 0; x < kBlockSize; ++x) {
@@ -79,6 +118,7 @@ class BlockCounter {
       mOut.edges[0].word[x] = below.here ^ above.here;
       mOut.edges[1].word[x] = below.here ^ below.y;
       mOut.edges[2].word[x] = below.here ^ below.z;
+      mMayBeStrict[x] = mayBeStrict(below, above);
     }
   }
 
@@ -137,7 +177,8 @@ class BlockCounter {
 
   void findSpecialCells() {
     for (int x = 0; x < kBlockSize; ++x)
-      for (std::uint64_t w = mOut.cells.word[x]; w != 0; w &= w - 1) {
+      for (std::uint64_t w = mOut.cells.word[x] & (mBlocks.open ? ~std::uint64_t{0} : mMayBeStrict[x]); w != 0;
+           w &= w - 1) {
         const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
         const int code = cellCode(mSigns, x, y, z);
         const CellEntry& entry = kCellTable[code];
@@ -186,6 +227,7 @@ class BlockCounter {
   const Coord mCoord;
   const BlockSigns& mSigns;
   BlockTopology& mOut;
+  std::array<std::uint64_t, kBlockSize> mMayBeStrict;
 };
 
 /// The first special cell that is not before `cell`.
@@ -215,8 +257,11 @@ Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, Flip
   t.blocks.resize(blocks.coords.size());
   BlockProgress progress(monitor, "count", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
+    LowerBlocks lower(blocks.coords, range.begin());
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      lower.find(i, t.blocks[i].lower);
       BlockCounter(blocks, t.index, rule, i, t.blocks[i]).run();
+    }
     progress.advance(range.size());
   });
   for (BlockTopology& b : t.blocks) {

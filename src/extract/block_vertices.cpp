@@ -1,11 +1,14 @@
 #include "extract/block_vertices.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include "extract/cell_rounding.h"
-#include "extract/float4.h"
+#include "extract/crossing_rows.h"
+#include "extract/float_lanes.h"
+#include "extract/patch_sums.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_batch.h"
 
@@ -14,20 +17,8 @@ namespace {
 
 Vec3d toVec3d(const Coord& c) { return {double(c[0]), double(c[1]), double(c[2])}; }
 
-/// EdgeIndex slots of a cell's edges, from the slot of its low corner along x.
-constexpr auto kEdgeSlot = [] {
-  std::array<int, kEdges> slot{};
-  for (int e = 0; e < kEdges; ++e) {
-    const int low = edgeLowCorner(e);
-    slot[e] = EdgeIndex::slot(edgeAxis(e), low & 1, low >> 1 & 1, low >> 2);
-  }
-  return slot;
-}();
-
-/// A crossing in lattice units: its plane's row (see PatchSamples) and its place from the block's origin.
-struct Crossing {
-  Float4 row, place;
-};
+/// Blocks between asking for a block's data and using it: half a microsecond or more.
+constexpr std::size_t kAhead = 4;
 
 /// Only a map that is not affine has a metric that changes from block to block; within one it is taken as constant.
 CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
@@ -46,7 +37,6 @@ double cellHalfSize(const LatticeMap& map, const Coord& block) {
 /// A vertex no farther than this, in lattice units, beyond that part of its cell is put back into it: surfaces that lie
 /// on lattice planes have all their vertices there, give or take rounding.
 constexpr double kSnap = 1e-4;
-
 /// Nor does a vertex leave its cell to come nearer to its planes by less than this, in voxels.
 constexpr double kFlatness = 1e-3;
 
@@ -60,8 +50,7 @@ void clampToCube(Vec3<T>& x, double halfSize) {
 /// One block while its vertices are being solved.
 struct BlockState {
   std::int32_t index;
-  const BlockTopology& topology;
-  const BlockSigns& signs;
+  std::uint64_t firstVertex;
   const EdgeIndex& edges;
   const CellMetric& metric;
   Vec3d origin;
@@ -70,168 +59,174 @@ struct BlockState {
   VertexCounts& counts;
 };
 
-/// A vertex to solve: the cell in its block, the edges of its patch, its number in the mesh.
-struct Waiting {
-  Coord cell;
-  unsigned edges;
-  std::uint64_t vertex;
-  bool strict;  ///< See CellEntry.
-};
+/// Sixteen patches, one per lane; those beyond the block's last repeat it.
+struct PatchLanes {
+  /// Lanes of the entries of PatchSums::sum, then of rhs.
+  alignas(64) float sum[20][kLanes];
+  alignas(64) float cellX[kLanes], cellY[kLanes], cellZ[kLanes];  ///< Centres from the block's origin.
+  NormalEquationsLanes<float> system;                             ///< About the mass points.
+  SolutionLanes<float> step;
+  Vec3Lanes<float> mass;  ///< From the centre of the cell.
+  alignas(64) float reach[kLanes];
+  alignas(64) float error[12][kLanes];  ///< Of VertexError.
+  alignas(64) float position[4][kLanes];
 
-/// The sign-changing edges of the patch that vertex v of a special cell belongs to.
-unsigned patchEdges(const SpecialCell& special, unsigned present, int v) {
-  int patch = kNone;
-  for (int e = 0; e < kEdges; ++e)
-    if (special.vertex[e] == v) patch = special.patch[e];
-  unsigned edges = 0;
-  for (unsigned bits = present; bits != 0; bits &= bits - 1) {
-    const int e = std::countr_zero(bits);
-    if (special.patch[e] == patch) edges |= 1u << e;
-  }
-  return edges;
-}
+  [[nodiscard]] float* sumLane(int quarter, int lane) { return &sum[4 * quarter][lane]; }
+};
 
 }  // namespace
 
-/// Vertices wait in lanes until a register's worth of them can be solved at once, in single precision about their mass
-/// points. Those that leave their bounds, and all where σn is too small for single precision, are solved in double.
+/// Vertices are solved a register's worth at once, in single precision about their mass points. Those that leave their
+/// bounds, and all where σn is too small for single precision, are solved in double.
 struct BlockVertexSolver::Scratch {
   Scratch(const LatticeMap& m, double sigmaNormal, double halfSize, SimdLevel l)
-      : map(m), solver(sigmaNormal, halfSize), level(l) {}
+      : map(m), solver(sigmaNormal, halfSize), level(l), linear(m.affine() ? m.jacobian({}) : Mat3d{}) {}
 
   void run(const BlockState& block) {
-    fillCrossings(block);
-    block.counts.crossings += block.topology.quadCount;
-    const BlockTopology& topology = block.topology;
-    std::uint64_t vertex = topology.firstVertex;
-    for (int x = 0; x < kBlockSize; ++x)
-      for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
-        const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
-        const CellEntry& entry = kCellTable[cellCode(block.signs, x, y, z)];
-        const unsigned present = entry.edges;
-        const SpecialCell* special = topology.special.empty() ? nullptr : topology.findSpecial(64 * x + bit);
-        if (special == nullptr) {
-          add(block, {{x, y, z}, present, vertex++, entry.strict});
-        } else {
-          for (int v = 0; v < special->vertexCount; ++v)
-            add(block, {{x, y, z}, patchEdges(*special, present, v), vertex++, true});
-        }
+    const std::size_t count = patches.size();
+    if (!solver.batched()) {
+      for (std::size_t i = 0; i < count; ++i) solveAlone(block, i);
+    } else {
+      for (std::size_t first = 0; first < count; first += kLanes) {
+        const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
+        gather(first, used);
+        solve(block);
+        write(block, first, used);
+        for (int lane = 0; lane < used; ++lane)
+          if (mustSolveAlone(block, patches.patch(first + lane), lane)) {
+            solveAlone(block, first + lane);
+          } else {
+            block.counts.outOfCell += lanes.reach[lane] > 0.5F;
+          }
       }
-    flush(block);
+    }
+    if (block.out.normals != nullptr)
+      for (std::size_t i = 0; i < count; ++i)
+        block.out.normals[block.firstVertex + i] = meanNormal(block, patches.patch(i));
   }
 
-  void fillCrossings(const BlockState& block) {
-    const Mat3d Mt = block.metric.M.transposed();
-    block.edges.forEach([&](int i, int axis, int x, int y, int z) {
-      const Vec3f n{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
-      const bool owned = x < kBlockSize && y < kBlockSize && z < kBlockSize;
-      block.counts.withoutNormal += owned && n == Vec3f{};
-      Float4 place{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0.0F};
-      place[axis] += hermite.t[i];
-      crossing[i].place = place;
-      if (block.metric.identity) {
-        crossing[i].row = float4(n);
-      } else if (map.affine()) {
-        crossing[i].row = float4(vecCast<float>(Mt * vecCast<double>(n)));
-      } else {
-        const Vec3d p = block.origin + vecCast<double>(vec3(place));
-        crossing[i].row =
-            float4(vecCast<float>(map.jacobian(p).transposed() * vecCast<double>(n) * (1 / block.metric.voxelSize)));
+  void gather(std::size_t first, int used) {
+    for (int lane = 0; lane < kLanes; lane += 4) {
+      const float *sum[4], *rhs[4];
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t i = first + std::min(lane + k, used - 1);
+        sum[k] = patches.sum(i);
+        rhs[k] = patches.rhs(i);
+        const Patch& p = patches.patch(i);
+        lanes.cellX[lane + k] = static_cast<float>(p.x()) + 0.5F;
+        lanes.cellY[lane + k] = static_cast<float>(p.y()) + 0.5F;
+        lanes.cellZ[lane + k] = static_cast<float>(p.z()) + 0.5F;
       }
+      for (int quarter = 0; quarter < 4; ++quarter)
+        transpose4({sum[0] + 4 * quarter, sum[1] + 4 * quarter, sum[2] + 4 * quarter, sum[3] + 4 * quarter},
+                   lanes.sumLane(quarter, lane), kLanes);
+      transpose4({rhs[0], rhs[1], rhs[2], rhs[3]}, lanes.sumLane(4, lane), kLanes);
+    }
+  }
+
+  /// About its mass point a patch's right-hand side is small where the surface is flat, and so is what rounding does to
+  /// the solution.
+  void solve(const BlockState& block) {
+    const SymMat3<float> S = Sigma_n;
+    PatchLanes& l = lanes;
+    const bool promised = block.out.doubts != nullptr;
+    const auto inCell = static_cast<float>(block.cellHalfSize);
+    const float snapped = promised ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
+    forEachLane([&](int i) {
+      const float n = l.sum[15][i], inverse = 1.0F / n;
+      const Vec3f mass{l.sum[3][i] * inverse - l.cellX[i], l.sum[7][i] * inverse - l.cellY[i],
+                       l.sum[11][i] * inverse - l.cellZ[i]};
+      const SymMat3<float> A{l.sum[0][i], l.sum[1][i], l.sum[2][i], l.sum[5][i], l.sum[6][i], l.sum[10][i]};
+      l.mass.set(i, mass);
+      l.system.b.set(i, Vec3f{l.sum[16][i], l.sum[17][i], l.sum[18][i]} - A * mass);
+      l.system.A.set(i, A + S * n);
+    });
+    solveLdlt(std::span<const NormalEquationsLanes<float>>(&l.system, 1), std::span<SolutionLanes<float>>(&l.step, 1),
+              level);
+    forEachLane([&](int i) {
+      const Vec3f v = l.mass.get(i) + l.step.x.get(i);
+      const SymMat3<float> A = l.system.A.get(i);
+      const Vec3f b = A * v;
+      const float ax = std::abs(v.x), ay = std::abs(v.y), az = std::abs(v.z), xy = ax > ay ? ax : ay;
+      const float reach = xy > az ? xy : az;
+      const float bound = reach <= snapped ? inCell : std::numeric_limits<float>::max();
+      const auto clamped = [bound](float c) { return c > bound ? bound : c < -bound ? -bound : c; };
+      l.reach[i] = reach;
+      const float e[12] = {clamped(v.x), clamped(v.y), clamped(v.z), A.xx, A.xy, A.xz, A.yy, A.yz, A.zz, b.x, b.y, b.z};
+      for (int k = 0; k < 12; ++k) l.error[k][i] = e[k];
+    });
+    if (!map.affine()) return;
+    const Vec3d base = map.position(block.origin);
+    forEachLane([&](int i) {
+      const Vec3d inBlock{double(l.cellX[i]) + double(l.error[0][i]), double(l.cellY[i]) + double(l.error[1][i]),
+                          double(l.cellZ[i]) + double(l.error[2][i])};
+      const Vec3d p = linear * inBlock + base;
+      l.position[0][i] = static_cast<float>(p.x);
+      l.position[1][i] = static_cast<float>(p.y);
+      l.position[2][i] = static_cast<float>(p.z);
     });
   }
 
-  void add(const BlockState& block, const Waiting& w) {
-    waiting[lanes] = w;
-    if (solver.batched()) sumPlanes(block, waiting[lanes], lanes);
-    if (++lanes == kLanes) flush(block);
+  /// Vertices of a block are neighbours in memory.
+  void write(const BlockState& block, std::size_t first, int used) {
+    const std::uint64_t vertex = block.firstVertex + first;
+    VertexError* error = &block.out.errors[vertex - block.out.firstError];
+    alignas(64) float positions[kLanes][4];
+    alignas(64) float errors[kLanes][12];
+    static_assert(sizeof errors[0] == sizeof *error);
+    for (int lane = 0; lane < kLanes; lane += 4) {
+      for (int part = 0; part < 3; ++part)
+        transpose4(&lanes.error[4 * part][lane], kLanes, &errors[lane][4 * part], 12);
+      transpose4(&lanes.position[0][lane], kLanes, positions[lane], 4);
+    }
+    if (used == kLanes) {
+      std::memcpy(error, errors, sizeof errors);
+    } else {
+      std::memcpy(error, errors, used * sizeof errors[0]);
+    }
+    Vec3f* position = block.out.positions + vertex;
+    if (map.affine()) {
+      for (int lane = 0; lane < used; ++lane)
+        position[lane] = {positions[lane][0], positions[lane][1], positions[lane][2]};
+    } else {
+      for (int lane = 0; lane < used; ++lane)
+        position[lane] = worldPosition(block, patches.patch(first + lane), vecCast<double>(error[lane].x));
+    }
   }
 
-  /// The normal equations of a patch about its mass point: there the right-hand side is small where the surface is
-  /// flat, and so is what rounding does to it.
-  void sumPlanes(const BlockState& block, const Waiting& w, int lane) {
-    const auto [x, y, z] = w.cell;
-    const Float4 center{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z) + 0.5F, 0.0F};
-    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, x, y, z);
-    const Crossing* at[kEdges];
-    int n = 0;
-    Float4 places{};
-    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
-      at[n] = &crossing[number[kEdgeSlot[std::countr_zero(bits)]]];
-      places += at[n++]->place - center;
-    }
-    const Float4 massPoint = places * (1.0F / static_cast<float>(n));
-    const Float4 origin = massPoint + center;
-    Float4 x0{}, x1{}, x2{}, b{};
-    for (int i = 0; i < n; ++i) {
-      const Float4 row = at[i]->row;
-      x0 += row * row[0];
-      x1 += row * row[1];
-      x2 += row * row[2];
-      b += row * dot3(row, at[i]->place - origin);
-    }
-    const SymMat3<float>& S = Sigma_n;
-    const auto count = static_cast<float>(n);
-    system.A.set(lane, {x0[0] + count * S.xx, x0[1] + count * S.xy, x0[2] + count * S.xz, x1[1] + count * S.yy,
-                        x1[2] + count * S.yz, x2[2] + count * S.zz});
-    system.b.set(lane, vec3(b));
-    mass[lane] = vec3(massPoint);
+  [[nodiscard]] bool mustSolveAlone(const BlockState& block, const Patch& patch, int lane) const {
+    const bool promised = block.out.doubts != nullptr;
+    const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
+    return lanes.step.solved[lane] == 0 || (promised && patch.strict) || !(lanes.reach[lane] <= limit);
   }
 
-  void flush(const BlockState& block) {
-    if (solver.batched() && lanes > 0) {
-      for (int lane = lanes; lane < kLanes; ++lane)
-        system.set(lane, NormalEquations<float>{SymMat3<float>::identity(), {}});
-      solveLdlt(std::span<const NormalEquationsLanes<float>>(&system, 1), std::span<SolutionLanes<float>>(&solution, 1),
-                level);
-    }
-    for (int lane = 0; lane < lanes; ++lane) {
-      const Waiting& w = waiting[lane];
-      if (!solver.batched() || solution.solved[lane] == 0) {
-        solveAlone(block, w);
-        continue;
-      }
-      Vec3f v = mass[lane] + solution.x.get(lane);
-      const bool promised = block.out.doubts != nullptr;
-      const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
-      if ((promised && w.strict) || !(reach(v) <= limit)) {
-        solveAlone(block, w);
-        continue;
-      }
-      block.counts.outOfCell += reach(v) > 0.5F;
-      const SymMat3<float> A = system.A.get(lane);
-      const Vec3f b = A * v;
-      if (promised) clampToCube(v, block.cellHalfSize);
-      write(block, w, {v, A, b});
-    }
-    lanes = 0;
-  }
-
-  void solveAlone(const BlockState& block, const Waiting& w) {
-    const auto [x, y, z] = w.cell;
-    const Vec3d center{x + 0.5, y + 0.5, z + 0.5};
-    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, x, y, z);
-    samples.size = 0;
-    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
-      const Crossing& c = crossing[number[kEdgeSlot[std::countr_zero(bits)]]];
-      sampleAxis[samples.size] = edgeAxis(std::countr_zero(bits));
-      samples.position[samples.size] = vecCast<double>(vec3(c.place)) - center;
-      samples.row[samples.size++] = vecCast<double>(vec3(c.row));
+  void solveAlone(const BlockState& block, std::size_t i) {
+    const Patch& patch = patches.patch(i);
+    const Vec3d center{patch.x() + 0.5, patch.y() + 0.5, patch.z() + 0.5};
+    const std::uint16_t* number = block.edges.numbers() + patch.slot();
+    samples.size = patch.edges.count;
+    for (int k = 0; k < samples.size; ++k) {
+      const int e = patch.edges.edge[k], edge = number[kEdgeSlot[e]];
+      sampleAxis[k] = edgeAxis(e);
+      samples.position[k] = vecCast<double>(crossings.place(edge)) - center;
+      samples.row[k] = vecCast<double>(crossings.plane(edge));
     }
     const SolvedVertex v = solver.solve(samples, block.metric);
     block.counts.outOfCell += v.outOfCell;
     block.counts.moved += v.moved;
-    Vec3f at = vecCast<float>(v.x);
-    if (block.out.doubts != nullptr) at = keepOrNote(block, w, v.x);
-    write(block, w, {at, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)});
+    const std::uint64_t vertex = block.firstVertex + i;
+    Vec3f x = vecCast<float>(v.x);
+    if (block.out.doubts != nullptr) x = keepOrNote(block, patch, vertex, v.x);
+    block.out.positions[vertex] = worldPosition(block, patch, vecCast<double>(x));
+    block.out.errors[vertex - block.out.firstError] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
   }
 
   /// Puts a vertex whose free place is `x` into its cell where that costs nothing; or notes it as loose. \returns where
   /// it is now.
-  Vec3f keepOrNote(const BlockState& block, const Waiting& w, const Vec3d& x) {
+  Vec3f keepOrNote(const BlockState& block, const Patch& patch, std::uint64_t vertex, const Vec3d& x) {
     Vec3f free = vecCast<float>(x);
     Vec3d safe{};
-    if (w.strict) {
+    if (patch.strict) {
       safe = meanCrossing();
     } else if (reach(free) <= block.cellHalfSize + kSnap) {
       clampToCube(free, block.cellHalfSize);
@@ -241,8 +236,7 @@ struct BlockVertexSolver::Scratch {
       if (planeError(safe) <= planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
-    const auto cell = static_cast<std::uint16_t>(64 * w.cell[0] + 8 * w.cell[1] + w.cell[2]);
-    block.out.doubts->vertices.push_back({w.vertex, block.index, cell, free, vecCast<float>(safe)});
+    block.out.doubts->vertices.push_back({vertex, block.index, patch.cell, free, vecCast<float>(safe)});
     return free;
   }
 
@@ -273,18 +267,17 @@ struct BlockVertexSolver::Scratch {
     return {f(A.xx), f(A.xy), f(A.xz), f(A.yy), f(A.yz), f(A.zz)};
   }
 
-  void write(const BlockState& block, const Waiting& w, const VertexError& error) {
-    const Vec3d inBlock = toVec3d(w.cell) + Vec3d{0.5, 0.5, 0.5} + vecCast<double>(error.x);
-    block.out.positions[w.vertex] = vecCast<float>(map.position(block.origin + inBlock));
-    block.out.errors[w.vertex - block.out.firstError] = error;
-    if (block.out.normals != nullptr) block.out.normals[w.vertex] = meanNormal(block, w);
+  [[nodiscard]] Vec3f worldPosition(const BlockState& block, const Patch& patch, const Vec3d& x) const {
+    const Vec3d inBlock = Vec3d{patch.x() + 0.5, patch.y() + 0.5, patch.z() + 0.5} + x;
+    return vecCast<float>(map.affine() ? linear * inBlock + map.position(block.origin)
+                                       : map.position(block.origin + inBlock));
   }
 
-  Vec3f meanNormal(const BlockState& block, const Waiting& w) const {
-    const std::uint16_t* number = block.edges.numbers() + EdgeIndex::slot(0, w.cell[0], w.cell[1], w.cell[2]);
+  [[nodiscard]] Vec3f meanNormal(const BlockState& block, const Patch& patch) const {
+    const std::uint16_t* number = block.edges.numbers() + patch.slot();
     Vec3d sum{};
-    for (unsigned bits = w.edges; bits != 0; bits &= bits - 1) {
-      const int i = number[kEdgeSlot[std::countr_zero(bits)]];
+    for (int k = 0; k < patch.edges.count; ++k) {
+      const int i = number[kEdgeSlot[patch.edges.edge[k]]];
       sum += Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
     }
     const double l = length(sum);
@@ -294,14 +287,12 @@ struct BlockVertexSolver::Scratch {
   const LatticeMap& map;
   const VertexSolver solver;
   const SimdLevel level;
+  const Mat3d linear;      ///< Of an affine map.
   SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
   HermiteBlock hermite;
-  std::array<Crossing, EdgeIndex::kMaxEdges> crossing;
-  std::array<Waiting, kLanes> waiting;
-  std::array<Vec3f, kLanes> mass;
-  NormalEquationsLanes<float> system;
-  SolutionLanes<float> solution;
-  int lanes = 0;
+  CrossingRows crossings;
+  PatchSums patches;
+  PatchLanes lanes;
   PatchSamples samples;
   std::array<int, PatchSamples::kMax> sampleAxis;
 };
@@ -320,17 +311,22 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const CellMetric metric = blockMetric(mSource.map(), origin);
   const double sigma = mScratch->solver.sigma();
   mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
-  mSource.fillHermite(block, signs, edges, mScratch->hermite);
+  Scratch& scratch = *mScratch;
+  if (index + kAhead < blocks.coords.size()) mSource.expect(blocks.coords[index + kAhead]);
+  mSource.fillHermite(block, signs, edges, scratch.hermite);
+  counts.crossings += topology.blocks[index].quadCount;
+  counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
+  scratch.patches.list(topology.blocks[index], signs);
+  scratch.patches.sum(scratch.crossings, edges, scratch.level);
   const BlockState state{static_cast<std::int32_t>(index),
-                         topology.blocks[index],
-                         signs,
+                         topology.blocks[index].firstVertex,
                          edges,
                          metric,
                          origin,
                          cellHalfSize(mSource.map(), block),
                          out,
                          counts};
-  forEachBlock(mScratch->level, 1, [&](std::size_t) { mScratch->run(state); });
+  forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state); });
 }
 
 }  // namespace pdc::detail

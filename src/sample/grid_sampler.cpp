@@ -3,11 +3,14 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <array>
-#include <numeric>
+#include <bit>
+#include <cmath>
+#include <vector>
 
-#include "sample/grid_leaves.h"
 #include "sample/halo.h"
+#include "sample/leaf_signs.h"
 #include "sample/tile_faces.h"
 
 namespace pdc::detail {
@@ -49,10 +52,12 @@ class TypedGridSampler final : public GridSampler {
   using TreeT = typename GridT::TreeType;
   using ValueT = typename TreeT::ValueType;
   using LeafT = typename TreeT::LeafNodeType;
-  using Accessor = openvdb::tree::ValueAccessor<const TreeT>;
+  using Table = LeafTable<TreeT>;
+  using Signs = LeafSigns<TreeT>;
+  using Place = typename Table::Place;
 
   TypedGridSampler(typename GridT::ConstPtr grid, const GridReading& reading)
-      : mGrid(std::move(grid)), mReading(reading), mReader(reading) {
+      : mGrid(std::move(grid)), mReading(reading), mReader(reading), mTable(mGrid->tree()) {
     const double low = -reading.clamp - reading.iso, high = reading.clamp - reading.iso;
     mLow = static_cast<float>(low + 1e-6 * std::abs(low));
     mHigh = static_cast<float>(high - 1e-6 * std::abs(high));
@@ -60,37 +65,35 @@ class TypedGridSampler final : public GridSampler {
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override {
     monitor.throwIfStopped();
-    const GridLeaves<TreeT> leaves(mGrid->tree(), mReader, mReading.acceptNonFinite);
+    const Signs leaves(mTable, mReader, mReading.acceptNonFinite);
     monitor.throwIfStopped();
-    const std::vector<Coord> candidates = candidateBlocks(leaves, monitor);
-    monitor.throwIfStopped();
-
-    // Chunks of candidates find their surface blocks, then move them to where they belong.
-    constexpr std::size_t kChunk = 256;
-    const std::size_t chunks = (candidates.size() + kChunk - 1) / kChunk;
-    std::vector<SurfaceBlocks> found(chunks);
-    std::vector<std::size_t> first(chunks + 1);
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-      monitor.throwIfStopped();
-      Accessor accessor(mGrid->tree());
-      BlockSigns signs;
-      for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, candidates.size()); ++i)
-        if (readSigns(leaves, accessor, candidates[i], signs)) {
-          found[c].coords.push_back(candidates[i]);
-          found[c].signs.push_back(signs);
-        }
-      first[c + 1] = found[c].coords.size();
-    });
-    std::partial_sum(first.begin(), first.end(), first.begin());
     SurfaceBlocks out;
     out.open = mReading.open;
-    out.coords.resize(first[chunks]);
-    out.signs.resize(first[chunks]);
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-      std::copy(found[c].coords.begin(), found[c].coords.end(), out.coords.begin() + std::ptrdiff_t(first[c]));
-      std::copy(found[c].signs.begin(), found[c].signs.end(), out.signs.begin() + std::ptrdiff_t(first[c]));
+    out.coords = mixedBlocks(leaves, monitor);
+    out.signs.resize(out.coords.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.coords.size(), 64), [&](const auto& range) {
+      monitor.throwIfStopped();
+      for (std::size_t i = range.begin(); i != range.end(); ++i) readSigns(leaves, out.coords[i], out.signs[i]);
     });
+    if (out.open) dropBlocksWithoutCells(out);
     return out;
+  }
+
+  /// What readHalo() will read of leaves that no block before has touched: the block's own leaf and those above it.
+  void expect(const Coord& block) const override {
+    const typename Table::Around around(mTable, block);
+    const auto fetch = [&](const Place& place, std::size_t rows, std::size_t step) {
+      if (place.leaf < 0 || mTable.values(place.leaf) == nullptr) return;
+      constexpr std::size_t kLine = 64 / sizeof(ValueT);
+      const ValueT* values = mTable.values(place.leaf);
+      for (std::size_t i = 0; i < LeafT::SIZE; i += step)
+        for (std::size_t k = i; k < i + rows; k += kLine) __builtin_prefetch(values + k);
+    };
+    constexpr std::size_t kRow = kBlockSize, kLayer = kBlockSize * kBlockSize;
+    fetch(around(0, 0, 0), LeafT::SIZE, LeafT::SIZE);
+    fetch(around(0, 0, 1), LeafT::SIZE, LeafT::SIZE);
+    fetch(around(0, 1, 0), 2 * kRow, kLayer);
+    fetch(around(1, 0, 0), 2 * kLayer, LeafT::SIZE);
   }
 
   void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
@@ -120,80 +123,122 @@ class TypedGridSampler final : public GridSampler {
   }
 
  private:
-  /// Every block with a cell that could change sign, each once, sorted.
-  [[nodiscard]] std::vector<Coord> candidateBlocks(const GridLeaves<TreeT>& leaves, const Monitor& monitor) const {
-    std::vector<Coord> blocks = leaves.coords();
+  /// Every block whose 9×9×9 points are not all on one side, each once, sorted.
+  [[nodiscard]] std::vector<Coord> mixedBlocks(const Signs& leaves, const Monitor& monitor) const {
+    std::vector<Coord> blocks;
     TileFaces<TreeT>(mGrid->tree(), mReader).find(monitor, blocks);
-    // A leaf's points are corners of cells of its own block and of the seven blocks below it.
-    tbb::enumerable_thread_specific<std::vector<Coord>> missing;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size(), 256), [&](const auto& range) {
-      std::vector<Coord>& local = missing.local();
-      for (std::size_t l = range.begin(); l != range.end(); ++l)
-        for (int i = 1; i < 8; ++i) {
-          const Coord& b = leaves.coords()[l];
-          const Coord c{b[0] - (i >> 2), b[1] - (i >> 1 & 1), b[2] - (i & 1)};
-          if (leaves.find(c) == BlockIndex::kMissing) local.push_back(c);
-        }
+    std::erase_if(blocks, [&](const Coord& b) { return !isMixed(leaves, b); });
+    tbb::enumerable_thread_specific<std::vector<Coord>> found;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mTable.size(), 256), [&](const auto& range) {
+      monitor.throwIfStopped();
+      std::vector<Coord>& local = found.local();
+      for (std::size_t l = range.begin(); l != range.end(); ++l) {
+        const Coord& b = mTable.coord(l);
+        if (isMixed(leaves, b)) local.push_back(b);
+        addTilesBelow(leaves, l, local);
+      }
     });
-    for (const std::vector<Coord>& part : missing) blocks.insert(blocks.end(), part.begin(), part.end());
+    for (const std::vector<Coord>& part : found) blocks.insert(blocks.end(), part.begin(), part.end());
     sortUnique(blocks);
     return blocks;
   }
 
-  /// Gathers a block's 9×9×9 points from the eight leaves or tiles they lie in. \returns true if the block holds
-  /// surface.
-  bool readSigns(const GridLeaves<TreeT>& leaves, Accessor& accessor, const Coord& block, BlockSigns& signs) const {
-    std::array<std::int32_t, 8> leaf;
+  /// A leaf's points are corners of cells of the seven blocks below it too. Adds those that are tiles, unless the
+  /// leaf's points there are on the tile's side.
+  void addTilesBelow(const Signs& leaves, std::size_t leaf, std::vector<Coord>& blocks) const {
+    const Coord& b = mTable.coord(leaf);
+    const typename Table::Around around(mTable, b);
+    for (int i = 1; i < 8; ++i) {
+      const int dx = i >> 2, dy = i >> 1 & 1, dz = i & 1;
+      const Place tile = around(-dx, -dy, -dz);
+      if (tile.leaf >= 0) continue;
+      const Side side = leaves.side(tile);
+      if (leaves.side(leaf) == side || cornersIn(leaves.inside(leaf), i) == side) continue;
+      blocks.push_back({b[0] - dx, b[1] - dy, b[2] - dz});
+    }
+  }
+
+  [[nodiscard]] bool isMixed(const Signs& leaves, const Coord& block) const {
+    const typename Table::Around around(mTable, block);
+    std::array<Place, 8> part;
     std::array<Side, 8> side;
     bool mixed = false;
-    const auto origin = [&block](int i) {
-      return openvdb::Coord((block[0] + (i >> 2)) * kBlockSize, (block[1] + (i >> 1 & 1)) * kBlockSize,
-                            (block[2] + (i & 1)) * kBlockSize);
-    };
     for (int i = 0; i < 8; ++i) {
-      leaf[i] = leaves.find({block[0] + (i >> 2), block[1] + (i >> 1 & 1), block[2] + (i & 1)});
-      if (leaf[i] != BlockIndex::kMissing) {
-        side[i] = leaves.side(leaf[i]);
-      } else {
-        side[i] = mReader.inside(accessor.getValue(origin(i))) ? Side::kInside : Side::kOutside;
-      }
-      mixed = mixed || side[i] == Side::kBoth || side[i] != side[0];
+      part[i] = around(i >> 2, i >> 1 & 1, i & 1);
+      side[i] = leaves.side(part[i]);
+      mixed = mixed || side[i] != side[0];
     }
-    if (!mixed) return false;
+    if (side[0] == Side::kBoth || !mixed) return side[0] == Side::kBoth;
+    for (int i = 1; i < 8; ++i)
+      if (side[i] != side[0] && (side[i] != Side::kBoth || cornersIn(leaves.inside(part[i].leaf), i) != side[0]))
+        return true;
+    return false;
+  }
 
+  /// Where those points of part i of a block lie (see readSigns) that are corners of the block's cells.
+  static Side cornersIn(const CellMask& inside, int part) {
+    const std::uint64_t rows =
+        ((part & 2) != 0 ? 0xFF : ~std::uint64_t{0}) & ((part & 1) != 0 ? 0x0101010101010101 : ~std::uint64_t{0});
+    std::uint64_t any = inside.word[0] & rows, all = inside.word[0] & rows;
+    for (int x = 1; x < ((part & 4) != 0 ? 1 : kBlockSize); ++x) {
+      any |= inside.word[x] & rows;
+      all &= inside.word[x] & rows;
+    }
+    return any == 0 ? Side::kOutside : all == rows ? Side::kInside : Side::kBoth;
+  }
+
+  /// Gathers a block's 9×9×9 points from the eight leaves or tiles they lie in; part 4dx + 2dy + dz lies at
+  /// +(dx, dy, dz).
+  void readSigns(const Signs& leaves, const Coord& block, BlockSigns& signs) const {
+    const typename Table::Around around(mTable, block);
     std::array<CellMask, 8> inside, active;
     for (int i = 0; i < 8; ++i) {
-      if (side[i] == Side::kBoth) {
-        inside[i] = leaves.inside(leaf[i]);
-      } else {
-        inside[i] = side[i] == Side::kInside ? CellMask::all() : CellMask{};
-      }
-      if (!mReading.open) continue;
-      if (leaf[i] != BlockIndex::kMissing) {
-        active[i] = leaves.active(leaf[i]);
-      } else {
-        active[i] = accessor.isValueOn(origin(i)) ? CellMask::all() : CellMask{};
-      }
+      const Place place = around(i >> 2, i >> 1 & 1, i & 1);
+      inside[i] = leaves.mask(place);
+      if (mReading.open) active[i] = activePoints(place, block, i);
     }
     joinRows(inside, signs.row);
     signs.cells = CellMask::all();
-    if (signs.uniform()) return false;
-    if (!mReading.open) return true;
+    if (!mReading.open) return;
     BlockSigns activity;
     joinRows(active, activity.row);
     signs.cells = cellsWithAllCorners(activity);
-    return !signs.cells.none();
+  }
+
+  [[nodiscard]] CellMask activePoints(const Place& place, const Coord& block, int part) const {
+    if (place.leaf < 0) {
+      const openvdb::Coord origin((block[0] + (part >> 2)) * kBlockSize, (block[1] + (part >> 1 & 1)) * kBlockSize,
+                                  (block[2] + (part & 1)) * kBlockSize);
+      return mGrid->tree().isValueOn(origin) ? CellMask::all() : CellMask{};
+    }
+    CellMask m;
+    const auto& mask = mTable.leaf(place.leaf).getValueMask();
+    for (openvdb::Index w = 0; w < kBlockSize; ++w) m.word[w] = mask.template getWord<std::uint64_t>(w);
+    return m;
+  }
+
+  static void dropBlocksWithoutCells(SurfaceBlocks& blocks) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
+      if (blocks.signs[i].cells.none()) continue;
+      blocks.coords[kept] = blocks.coords[i];
+      blocks.signs[kept++] = blocks.signs[i];
+    }
+    blocks.coords.resize(kept);
+    blocks.signs.resize(kept);
   }
 
   static void joinRows(const std::array<CellMask, 8>& part,
                        std::array<std::uint16_t, kBlockPoints * kBlockPoints>& row) {
-    for (int x = 0; x < kBlockPoints; ++x)
-      for (int y = 0; y < kBlockPoints; ++y) {
-        const int i = (x >> 3) << 2 | (y >> 3) << 1;
-        const int shift = 8 * (y & 7);
-        const std::uint64_t low = part[i].word[x & 7] >> shift & 0xFF, high = part[i | 1].word[x & 7] >> shift & 1;
-        row[kBlockPoints * x + y] = static_cast<std::uint16_t>(low | high << 8);
-      }
+    using Bytes = std::array<std::uint8_t, kBlockSize>;
+    for (int x = 0; x < kBlockPoints; ++x) {
+      const int i = (x >> 3) << 2;
+      std::uint16_t* to = &row[kBlockPoints * x];
+      const auto low = std::bit_cast<Bytes>(part[i].word[x & 7]), high = std::bit_cast<Bytes>(part[i | 1].word[x & 7]);
+      for (int y = 0; y < kBlockSize; ++y) to[y] = static_cast<std::uint16_t>(low[y] | (high[y] & 1) << 8);
+      to[kBlockSize] =
+          static_cast<std::uint16_t>((part[i | 2].word[x & 7] & 0xFF) | (part[i | 3].word[x & 7] & 1) << 8);
+    }
   }
 
   static CellMask cellsWithAllCorners(const BlockSigns& points) {
@@ -210,11 +255,14 @@ class TypedGridSampler final : public GridSampler {
   /// A neighbouring block's rows of eight values along z; those of a tile are all the same.
   class Rows {
    public:
-    void find(Accessor& accessor, const openvdb::Coord& origin) {
-      const LeafT* leaf = accessor.probeConstLeaf(origin);
-      mStride = leaf == nullptr ? 0 : kBlockSize;
-      if (leaf == nullptr) mTile.fill(accessor.getValue(origin));
-      mValues = leaf == nullptr ? mTile.data() : mLeaf.read(*leaf);
+    void find(const Table& table, const Place& place) {
+      mStride = place.leaf < 0 ? 0 : kBlockSize;
+      if (place.leaf < 0) {
+        mTile.fill(place.tile);
+        mValues = mTile.data();
+      } else {
+        mValues = mLeaf.read(table.leaf(place.leaf), table.values(place.leaf));
+      }
     }
     [[nodiscard]] const ValueT* at(int x, int y) const { return mValues + mStride * ((x & 7) * kBlockSize + (y & 7)); }
 
@@ -227,7 +275,7 @@ class TypedGridSampler final : public GridSampler {
 
   void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
     const HaloRows needed(edges);
-    Accessor accessor(mGrid->tree());
+    const typename Table::Around around(mTable, block);
     for (int px = -1; px <= 1; ++px)
       for (int py = -1; py <= 1; ++py) {
         // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
@@ -236,9 +284,7 @@ class TypedGridSampler final : public GridSampler {
         if (!needed.any(kFirst[px + 1], endX, firstY, endY)) continue;
         std::array<Rows, 3> rows;
         for (int pz = 0; pz < 3; ++pz)
-          if (pz != 0 || needed.below())
-            rows[pz].find(accessor, openvdb::Coord((block[0] + px) * kBlockSize, (block[1] + py) * kBlockSize,
-                                                   (block[2] + pz - 1) * kBlockSize));
+          if (pz != 0 || needed.below()) rows[pz].find(mTable, around(px, py, pz - 1));
         for (int x = kFirst[px + 1]; x < endX; ++x)
           for (int y = firstY; y < endY; ++y) {
             if (!needed.row(x, y)) continue;
@@ -257,6 +303,7 @@ class TypedGridSampler final : public GridSampler {
   typename GridT::ConstPtr mGrid;
   GridReading mReading;
   ValueReader<ValueT> mReader;
+  Table mTable;
   float mLow, mHigh;
 };
 

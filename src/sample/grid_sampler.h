@@ -23,6 +23,7 @@ class GridSampler {
  public:
   virtual ~GridSampler() = default;
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+  virtual void expect(const Coord& block) const = 0;
   virtual void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                            HermiteBlock& hermite) const = 0;
 };

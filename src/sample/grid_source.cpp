@@ -90,6 +90,8 @@ void GridSource::fillHermite(const Coord& block, const BlockSigns&, const EdgeIn
   mImpl->sampler->fillHermite(block, edges, mImpl->map, hermite);
 }
 
+void GridSource::expect(const Coord& block) const { mImpl->sampler->expect(block); }
+
 const LatticeMap& GridSource::map() const { return mImpl->map; }
 double GridSource::iso() const { return mImpl->reading.iso; }
 bool GridSource::insideIsHigher() const { return mImpl->reading.insideIsHigher; }

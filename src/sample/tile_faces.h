@@ -9,7 +9,8 @@
 
 #include "pdc/monitor.h"
 #include "sample/block_index.h"
-#include "sample/grid_leaves.h"
+#include "sample/leaf_table.h"
+#include "sample/value_reader.h"
 
 namespace pdc::detail {
 

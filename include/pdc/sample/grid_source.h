@@ -27,7 +27,8 @@ struct GridSourceOptions {
 /// not on. Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged
 /// over the four cells at the edge), through the inverse transpose of the transform. Values at or beyond the background
 /// of a level set are treated as clamped: one-sided differences replace central ones there. The grid must not change
-/// while the source lives. \throws Error for other value types, singular or unsupported transforms.
+/// while the source lives. Making one finds the tree's leaves, in parallel on the calling thread's arena. \throws Error
+/// for other value types, singular or unsupported transforms, and leaves beyond index 2³⁰.
 class GridSource final : public HermiteSource {
  public:
   explicit GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options = {});
@@ -36,6 +37,7 @@ class GridSource final : public HermiteSource {
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
   void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                    HermiteBlock& hermite) const override;
+  void expect(const Coord& block) const override;
   [[nodiscard]] const LatticeMap& map() const override;
 
   [[nodiscard]] double iso() const;

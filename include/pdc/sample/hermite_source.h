@@ -21,8 +21,8 @@ class HermiteSource {
  public:
   virtual ~HermiteSource() = default;
 
-  /// All blocks with a sign change, each once, sorted by coordinate (x, then y, then z). Signs of points that two blocks
-  /// share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
+  /// All blocks with a sign change, each once, sorted by coordinate (x, then y, then z). Signs of points that two
+  /// blocks share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
   /// blocks are there (unless no cell of the other one takes part). Runs in parallel on the calling thread's arena.
   /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
@@ -30,6 +30,9 @@ class HermiteSource {
   /// Fills crossings and normals of one block for the edges of `edges`, which was made from `signs`. Does not allocate.
   virtual void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                            HermiteBlock& hermite) const = 0;
+
+  /// A hint that fillHermite() will soon be called for `block`, so that its data may be fetched meanwhile.
+  virtual void expect(const Coord& block) const { static_cast<void>(block); }
 
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;
