@@ -1,37 +1,69 @@
-// Contouring a level-set sphere, grid in memory to mesh in memory, beside OpenVDB's own mesher in the same process.
+// Contouring grids, grid in memory to mesh in memory, beside OpenVDB's own mesher in the same process.
 
 #include <benchmark/benchmark.h>
+#include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
+#include <cstdio>
+#include <cstring>
+#include <functional>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "pdc/extract/contour.h"
 #include "pdc/sample/grid_source.h"
 
 namespace {
 
-openvdb::FloatGrid::Ptr sphere(int radius) {
-  static std::map<int, openvdb::FloatGrid::Ptr> made;
-  auto& grid = made[radius];
-  if (!grid)
-    grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), openvdb::Vec3f(0), 1.0F,
-                                                                    3.0F);
+using openvdb::FloatGrid;
+
+FloatGrid::Ptr sphere(float radius) {
+  return openvdb::tools::createLevelSetSphere<FloatGrid>(radius, openvdb::Vec3f(0), 1.0F, 3.0F);
+}
+
+FloatGrid::Ptr fogSphere(float radius) {
+  const FloatGrid::Ptr grid = sphere(radius);
+  openvdb::tools::sdfToFogVolume(*grid);
   return grid;
 }
+
+/// The first float grid of a file; null where there is none.
+FloatGrid::Ptr read(const std::string& path) {
+  openvdb::io::File file(path);
+  file.open(false);
+  const openvdb::GridPtrVecPtr grids = file.getGrids();
+  for (const openvdb::GridBase::Ptr& grid : *grids)
+    if (const auto typed = openvdb::gridPtrCast<FloatGrid>(grid)) return typed;
+  return nullptr;
+}
+
+struct Input {
+  std::string name;
+  FloatGrid::Ptr grid;
+};
 
 void report(benchmark::State& state, std::size_t vertices) {
   state.counters["time_per_vertex"] = benchmark::Counter(
       static_cast<double>(vertices), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["vertices"] = static_cast<double>(vertices);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;  // Of the process up to now.
 }
 
-/// Arguments: radius in voxels, threads.
-void pdcContour(benchmark::State& state, pdc::Placement placement) {
-  const auto grid = sphere(static_cast<int>(state.range(0)));
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(state.range(1)));
+tbb::global_control limitThreads(const benchmark::State& state) {
+  return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
+}
+
+void pdcContour(benchmark::State& state, const FloatGrid::Ptr& grid, pdc::Placement placement) {
+  const auto threads = limitThreads(state);
   std::size_t vertices = 0;
   for (auto _ : state) {
     const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid), {.placement = placement});
@@ -41,33 +73,77 @@ void pdcContour(benchmark::State& state, pdc::Placement placement) {
   report(state, vertices);
 }
 
-void volumeToMesh(benchmark::State& state) {
-  const auto grid = sphere(static_cast<int>(state.range(0)));
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(state.range(1)));
+void volumeToMesh(benchmark::State& state, const FloatGrid::Ptr& grid) {
+  const auto threads = limitThreads(state);
+  // The isovalue that GridSource takes by default.
+  const double iso = grid->getGridClass() == openvdb::GRID_LEVEL_SET ? 0.0 : 0.5;
   std::size_t vertices = 0;
   for (auto _ : state) {
-    openvdb::tools::VolumeToMesh mesher(0, 0);
+    openvdb::tools::VolumeToMesh mesher(iso, 0);
     mesher(*grid);
     vertices = mesher.pointListSize();
   }
   report(state, vertices);
 }
 
-void sizes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"radius", "threads"})->ArgsProduct({{100, 300}, {1, 2}});
-  b->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(0.1)->Repetitions(7)->ReportAggregatesOnly();
+/// What contouring has to move at least: every leaf in, every vertex and quad out, at the pace of a copy.
+void roofline(benchmark::State& state, const FloatGrid::Ptr& grid) {
+  const auto threads = limitThreads(state);
+  const std::size_t vertices =
+      pdc::contour(pdc::GridSource(grid), {.placement = pdc::Placement::kFree}).positions.size();
+  const std::size_t in = grid->tree().leafCount() * FloatGrid::TreeType::LeafNodeType::SIZE * sizeof(float);
+  const std::size_t out = vertices * (sizeof(pdc::Vec3f) + sizeof(pdc::Quad));
+  const std::vector<char> from((in + out) / 2, 1);
+  std::vector<char> to(from.size());
+  for (auto _ : state) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), std::size_t{1} << 20),
+                      [&](const auto& r) { std::memcpy(to.data() + r.begin(), from.data() + r.begin(), r.size()); });
+    benchmark::ClobberMemory();
+  }
+  report(state, vertices);
 }
 
-BENCHMARK_CAPTURE(pdcContour, cell, pdc::Placement::kCell)->Apply(sizes);
-BENCHMARK_CAPTURE(pdcContour, free, pdc::Placement::kFree)->Apply(sizes);
-BENCHMARK(volumeToMesh)->Apply(sizes);
+void add(const std::string& what, const Input& input, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark((what + "/" + input.name).c_str(), run)
+      ->ArgName("threads")
+      ->Arg(1)
+      ->Arg(2)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MinTime(0.01)
+      ->Repetitions(7)
+      ->ReportAggregatesOnly();
+}
+
+void addAll(const Input& input) {
+  const FloatGrid::Ptr& grid = input.grid;
+  for (const auto& [name, placement] : {std::pair{"free", pdc::Placement::kFree},
+                                        {"cell", pdc::Placement::kCell},
+                                        {"certified", pdc::Placement::kCertified}})
+    add("pdc_" + std::string(name), input, [grid, p = placement](benchmark::State& s) { pdcContour(s, grid, p); });
+  add("volume_to_mesh", input, [grid](benchmark::State& s) { volumeToMesh(s, grid); });
+  add("roofline", input, [grid](benchmark::State& s) { roofline(s, grid); });
+}
 
 }  // namespace
 
+/// Arguments beyond those of Google Benchmark: .vdb files to contour too, and --large for the sphere of radius 1000.
 int main(int argc, char** argv) {
   openvdb::initialize();
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  addAll({"sphere_100", sphere(100)});
+  addAll({"sphere_300", sphere(300)});
+  addAll({"fog_sphere_300", fogSphere(300)});
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--large") {
+      addAll({"sphere_1000", sphere(1000)});
+    } else if (const FloatGrid::Ptr grid = read(argument)) {
+      addAll({argument.substr(argument.rfind('/') + 1), grid});
+    } else {
+      std::fprintf(stderr, "contour_bench: %s holds no float grid\n", argv[i]);
+      return 1;
+    }
+  }
   benchmark::RunSpecifiedBenchmarks();
 }
