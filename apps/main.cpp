@@ -12,6 +12,7 @@
 #include "interrupt.h"
 #include "mesh_command.h"
 #include "pdc/error.h"
+#include "render_command.h"
 
 namespace {
 
@@ -42,6 +43,9 @@ int run(int argc, char** argv) {
   pdc::CheckRequest check;
   CLI::App* checkCommand = app.add_subcommand("check", "Say whether a mesh is clean, and what is wrong with it");
   pdc::addCheckOptions(*checkCommand, check);
+  pdc::RenderRequest render;
+  CLI::App* renderCommand = app.add_subcommand("render", "Draw a mesh into a .png file");
+  pdc::addRenderOptions(*renderCommand, render);
 
   try {
     app.parse(argc, argv);
@@ -52,6 +56,7 @@ int run(int argc, char** argv) {
   if (meshCommand->parsed()) pdc::runMesh(mesh);
   if (infoCommand->parsed()) pdc::runInfo(info);
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
+  if (renderCommand->parsed()) pdc::runRender(render);
   return kDone;
 }
 
