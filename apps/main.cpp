@@ -13,6 +13,7 @@
 #include "mesh_command.h"
 #include "pdc/error.h"
 #include "render_command.h"
+#include "sweep_command.h"
 
 namespace {
 
@@ -46,6 +47,9 @@ int run(int argc, char** argv) {
   pdc::RenderRequest render;
   CLI::App* renderCommand = app.add_subcommand("render", "Draw a mesh into a .png file");
   pdc::addRenderOptions(*renderCommand, render);
+  pdc::SweepRequest sweep;
+  CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
+  pdc::addSweepOptions(*sweepCommand, sweep);
 
   try {
     app.parse(argc, argv);
@@ -57,6 +61,7 @@ int run(int argc, char** argv) {
   if (infoCommand->parsed()) pdc::runInfo(info);
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
   if (renderCommand->parsed()) pdc::runRender(render);
+  if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }
 

@@ -13,6 +13,7 @@
 #include "pdc/io/png_writer.h"
 #include "pdc/mesh/distance.h"
 #include "progress_bar.h"
+#include "view_option.h"
 #include "with_threads.h"
 
 namespace pdc {
@@ -20,15 +21,6 @@ namespace {
 
 [[noreturn]] void refuse(const char* option, const std::string& text, const std::string& wanted) {
   throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, wanted));
-}
-
-Vec3d parseView(const std::string& text) {
-  if (const auto view = viewNamed(text)) return *view;
-  const std::vector<double> v = parseReals(text, ',');
-  const double l = v.size() == 3 ? length(Vec3d{v[0], v[1], v[2]}) : 0;
-  if (!(l > 0) || !std::isfinite(l))
-    refuse("--view", text, "iso, front, back, left, right, top, bottom or a direction X,Y,Z to the viewer");
-  return {v[0], v[1], v[2]};
 }
 
 void parseSize(const std::string& text, RenderRequest& request) {
@@ -94,12 +86,7 @@ Image draw(const RenderRequest& request, std::string& scale) {
 void addRenderOptions(CLI::App& command, RenderRequest& request) {
   command.add_option("MESH", request.mesh, ".ply, .obj, .off or .stl")->required()->type_name("");
   command.add_option("OUT", request.picture, ".png")->required()->type_name("");
-  command
-      .add_option_function<std::string>(
-          "--view", [&request](const std::string& text) { request.towardsViewer = parseView(text); },
-          "From where (iso): iso, front, back, left, right, top,\nbottom, or the direction X,Y,Z to the viewer; z is "
-          "up")
-      ->type_name("FROM");
+  addView(command, request.towardsViewer);
   command
       .add_option_function<std::string>(
           "--size", [&request](const std::string& text) { parseSize(text, request); }, "Pixels (1024x1024)")

@@ -19,7 +19,7 @@ constexpr int kBlurReach = 2;
 
 /// Turns of the normal between neighbouring samples at which a line begins to show and is full.
 constexpr double kLineFromDegrees = 25, kLineFullDegrees = 40;
-constexpr float kLineDarkness = 0.8F;
+constexpr float kLineDarkness = 0.9F;
 /// A neighbour this much farther than the tangent plane says is behind an outline: share of the picture's side.
 constexpr float kOutlineDepth = 0.006F;
 

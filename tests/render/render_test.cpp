@@ -71,7 +71,7 @@ TEST(Render, CreasesAreDarkAndSmoothPartsHaveNone) {
   };
   // The nearest vertical edge runs down from the middle.
   const int crease = darkest(box, 97, 103, 150);
-  EXPECT_LT(crease, 0.75 * std::min(brightness(box.at(85, 150)), brightness(box.at(115, 150))));
+  EXPECT_LT(crease, 0.8 * std::min(brightness(box.at(85, 150)), brightness(box.at(115, 150))));
   const Image ball = draw(sphere(64));
   for (int x = 40; x < 160; ++x)
     EXPECT_LT(std::abs(brightness(ball.at(x, 100)) - brightness(ball.at(x + 1, 100))), 12) << x;
