@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "busy_sign.h"
 #include "interrupt.h"
 #include "numbers.h"
 #include "pdc/io/mesh_reader.h"
@@ -57,6 +58,7 @@ float largest(const Buffer<float>& values) {
 Image draw(const RenderRequest& request, std::string& scale) {
   const Mesh mesh = [&] {
     const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.mesh.filename().string());
     return readMesh(request.mesh);
   }();
   if (mesh.empty())
@@ -115,8 +117,12 @@ void runRender(const RenderRequest& request) {
   checkPngPath(request.picture);
   std::string scale;
   const Image image = detail::withThreads(request.threads.value_or(0), [&] { return draw(request, scale); });
-  const ExitOnInterrupt scope;
-  const std::size_t bytes = writePng(image, request.picture);
+  std::size_t bytes = 0;
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "writing " + request.picture.filename().string());
+    bytes = writePng(image, request.picture);
+  }
   if (!request.quiet)
     fmt::print("{}: {} x {} pixels, {} bytes{}\n", request.picture.string(), image.width, image.height, bytes, scale);
 }

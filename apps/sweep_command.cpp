@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "busy_sign.h"
 #include "input_kind.h"
 #include "interrupt.h"
 #include "mesh_input.h"
@@ -22,6 +23,14 @@ namespace {
 
 constexpr int kPictureSide = 480;  // pixels
 
+/// Calls read() and says so.
+template <typename Read>
+auto reading(const std::filesystem::path& path, bool quiet, const Read& read) {
+  const ExitOnInterrupt scope;
+  const BusySign sign(!quiet, "reading " + path.filename().string());
+  return read();
+}
+
 SweepTruth truthOf(const MeshInput& input) {
   if (input.field == nullptr) return {};
   return {.field = input.field,
@@ -30,25 +39,26 @@ SweepTruth truthOf(const MeshInput& input) {
 }
 
 /// What --reference names: a scene on its own lattice, or a mesh.
-SweepTruth readReference(const std::filesystem::path& path) {
+SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
   if (inputKind(path) == InputKind::kScene) {
     MeshRequest scene;
     scene.input = path;
-    return truthOf(openMeshInput(scene));
+    return truthOf(reading(path, quiet, [&] { return openMeshInput(scene); }));
   }
-  auto mesh = std::make_shared<Mesh>(readMesh(path));
+  auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMesh(path); }));
   if (mesh->empty()) throw Error(fmt::format("{}: the reference has no faces", path.string()));
   return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
 }
 
-SweepInput openInput(const SweepRequest& request, MeshRequest mesh, const SweepTruth& reference) {
-  MeshInput input = openMeshInput(mesh);
+SweepInput openInput(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
+  MeshInput input = reading(mesh.input, mesh.quiet, [&] { return openMeshInput(mesh); });
   SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
   return {std::move(input.source), std::move(truth)};
 }
 
 Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
-  const SweepTruth reference = request.reference.empty() ? SweepTruth{} : readReference(request.reference);
+  const SweepTruth reference =
+      request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const std::string parameter = request.parameter();
   SweepInput first = openInput(request, request.mesh, reference);
   SweepOptions options{.contour = request.mesh.contourOptions(ContourOptions{}.sigmaNormal), .truth = {}};
@@ -74,9 +84,21 @@ std::vector<Image> drawAll(const SweepRequest& request, const std::vector<Mesh>&
   for (const Mesh& mesh : meshes) {
     Image blank{kPictureSide, kPictureSide, {}};
     blank.pixels.resize(kPictureSide * kPictureSide, {255, 255, 255});
-    pictures.push_back(mesh.empty() ? blank : render(mesh, options, monitor));
+    const auto show = [&](const char* stage, double share) {
+      monitor.progress(stage, (static_cast<double>(pictures.size()) + share) / static_cast<double>(meshes.size()));
+    };
+    pictures.push_back(mesh.empty() ? blank : render(mesh, options, {.progress = show, .stop = monitor.stop}));
   }
   return pictures;
+}
+
+void writeAll(const SweepRequest& request, const Sweep& sweep, const SweepDescription& description) {
+  const ExitOnInterrupt scope;
+  const BusySign sign(!request.mesh.quiet, "writing " + request.folder.string());
+  for (std::size_t i = 0; request.meshes && i < sweep.meshes.size(); ++i)
+    static_cast<void>(writeMesh(sweep.meshes[i],
+                                request.folder / fmt::format("{}_{:.6g}.ply", sweep.parameter, sweep.steps[i].value)));
+  writeSweep(sweep, description, request.folder);
 }
 
 void printSummary(const SweepRequest& request, const Sweep& sweep) {
@@ -109,11 +131,7 @@ void runSweep(SweepRequest request, const std::string& command) {
       throw Error(fmt::format("{}: no surface at any value; there is nothing to compare", request.mesh.input.string()));
     description.pictures = drawAll(request, sweep.meshes, monitor);
   }
-  const ExitOnInterrupt scope;
-  for (std::size_t i = 0; request.meshes && i < sweep.meshes.size(); ++i)
-    static_cast<void>(writeMesh(sweep.meshes[i],
-                                request.folder / fmt::format("{}_{:.6g}.ply", sweep.parameter, sweep.steps[i].value)));
-  writeSweep(sweep, description, request.folder);
+  writeAll(request, sweep, description);
   if (!request.mesh.quiet) printSummary(request, sweep);
 }
 
