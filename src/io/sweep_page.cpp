@@ -34,7 +34,7 @@ output { font-variant-numeric: tabular-nums; font-weight: 600; }
 .sheet button { all: unset; cursor: pointer; display: block; text-align: center; border-radius: 6px; padding: 4px; }
 .sheet button:focus-visible { outline: 2px solid var(--c0); }
 .sheet img { width: 100%; height: auto; border-radius: 4px; display: block; }
-.chosen, .sheet .chosen { background: var(--mark); }
+.chosen, .sheet .chosen, tr.chosen td:first-child { background: var(--mark); }
 .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 330px), 1fr)); gap: 18px; }
 figure { margin: 0; } figcaption { font-weight: 600; }
 .key { font-weight: 400; font-size: .85rem; color: var(--faint); display: block; }
