@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "busy_sign.h"
 #include "facts_text.h"
 #include "info_facts.h"
 #include "interrupt.h"
@@ -32,6 +33,7 @@ Json factsOf(const CheckRequest& request) {
   MeshReport report;
   {
     const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
     mesh = readMesh(request.file);
     report = analyze(mesh);
   }

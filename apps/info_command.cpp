@@ -1,5 +1,6 @@
 #include "info_command.h"
 
+#include "busy_sign.h"
 #include "facts_text.h"
 #include "info_facts.h"
 #include "interrupt.h"
@@ -11,12 +12,16 @@ void addInfoOptions(CLI::App& command, InfoRequest& request) {
       ->required()
       ->type_name("");
   command.add_option("--json", request.json, "The same for programs; - is standard output")->type_name("FILE");
+  command.add_flag("--quiet", request.quiet, "No word on standard error while a large file is read");
 }
 
 void runInfo(const InfoRequest& request) {
   checkJsonPath(request.json);
   const ExitOnInterrupt scope;
-  const nlohmann::ordered_json facts = gatherFacts(request.file);
+  const nlohmann::ordered_json facts = [&] {
+    const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
+    return gatherFacts(request.file);
+  }();
   if (request.json.empty()) {
     printFacts(facts);
   } else {

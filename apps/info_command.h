@@ -8,6 +8,7 @@ namespace pdc {
 /// What the command line of `pdc info` says.
 struct InfoRequest {
   std::filesystem::path file, json;
+  bool quiet = false;
 };
 
 void addInfoOptions(CLI::App& command, InfoRequest& request);

@@ -12,6 +12,8 @@
 #include "interrupt.h"
 #include "mesh_command.h"
 #include "pdc/error.h"
+#include "render_command.h"
+#include "sweep_command.h"
 
 namespace {
 
@@ -42,6 +44,12 @@ int run(int argc, char** argv) {
   pdc::CheckRequest check;
   CLI::App* checkCommand = app.add_subcommand("check", "Say whether a mesh is clean, and what is wrong with it");
   pdc::addCheckOptions(*checkCommand, check);
+  pdc::RenderRequest render;
+  CLI::App* renderCommand = app.add_subcommand("render", "Draw a mesh into a .png file");
+  pdc::addRenderOptions(*renderCommand, render);
+  pdc::SweepRequest sweep;
+  CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
+  pdc::addSweepOptions(*sweepCommand, sweep);
 
   try {
     app.parse(argc, argv);
@@ -52,6 +60,8 @@ int run(int argc, char** argv) {
   if (meshCommand->parsed()) pdc::runMesh(mesh);
   if (infoCommand->parsed()) pdc::runInfo(info);
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
+  if (renderCommand->parsed()) pdc::runRender(render);
+  if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "busy_sign.h"
 #include "interrupt.h"
 #include "json_report.h"
 #include "mesh_input.h"
@@ -62,6 +63,7 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   Stopwatch stopwatch;
   const MeshInput input = [&] {
     const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
     return openMeshInput(request);
   }();
   run.secondsRead = stopwatch.lap();
@@ -107,6 +109,7 @@ void runMesh(const MeshRequest& request) {
   Stopwatch stopwatch;
   {
     const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
     run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
   }
   run.secondsWrite = stopwatch.lap();

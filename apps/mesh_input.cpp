@@ -32,6 +32,7 @@ MeshInput openGrid(const MeshRequest& request) {
   return {.source = std::move(source),
           .iso = iso,
           .sigmaNormal = ContourOptions{}.sigmaNormal,
+          .field = nullptr,
           .whyEmpty = [path = request.input, name = grid->getName(), iso] { return whyGridIsEmpty(path, name, iso); }};
 }
 
@@ -45,12 +46,14 @@ MeshInput openScene(const MeshRequest& request) {
   double voxelSize = request.voxelSize.value_or(scene.voxelSize);
   if (request.resolution) voxelSize = longestSide(scene.box) / *request.resolution;
   const double iso = request.iso.value_or(scene.iso);
-  return {
-      .source = std::make_unique<FieldSource>(
-          scene.field, FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = iso, .open = request.open}),
-      .iso = iso,
-      .sigmaNormal = scene.sigmaNormal.value_or(ContourOptions{}.sigmaNormal),
-      .whyEmpty = [iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); }};
+  auto source = std::make_unique<FieldSource>(
+      scene.field, FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = iso, .open = request.open});
+  const FieldPtr field = source->levelField();
+  return {.source = std::move(source),
+          .iso = iso,
+          .sigmaNormal = scene.sigmaNormal.value_or(ContourOptions{}.sigmaNormal),
+          .field = field,
+          .whyEmpty = [iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); }};
 }
 
 }  // namespace

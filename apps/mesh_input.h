@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mesh_request.h"
+#include "pdc/field/field.h"
 #include "pdc/sample/hermite_source.h"
 
 namespace pdc {
@@ -13,7 +14,8 @@ namespace pdc {
 struct MeshInput {
   std::unique_ptr<const HermiteSource> source;
   double iso = 0;
-  double sigmaNormal = 0;                 ///< What the input says, or the library's default.
+  double sigmaNormal = 0;  ///< What the input says, or the library's default.
+  FieldPtr field;          ///< Of a scene: zero on the surface that the mesh should have. Null of a grid.
   std::function<std::string()> whyEmpty;  ///< Says in a clause why there is no surface; may read the file again.
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -42,6 +43,18 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optiona
     target = *value;
   };
   return command.add_option_function<std::string>(name, take, help);
+}
+
+std::vector<double> parseReals(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    const auto value = parse<double>(text.substr(begin, end - begin));
+    if (!value || std::isnan(*value)) return {};
+    numbers.push_back(*value);
+    begin = end + 1;
+  }
+  return numbers;
 }
 
 CLI::Option* addThreads(CLI::App& command, std::optional<int>& target) {

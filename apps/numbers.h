@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pdc {
 
@@ -15,6 +16,9 @@ CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<d
 /// As addReal, for a whole number in [lo, hi].
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
                         const std::string& help);
+
+/// The numbers of a list like "0,0.1,inf", read as strictly; empty if any part is none.
+[[nodiscard]] std::vector<double> parseReals(const std::string& text, char separator);
 
 /// The option --threads, the same for all commands.
 CLI::Option* addThreads(CLI::App& command, std::optional<int>& target);

@@ -20,6 +20,16 @@ void show(const std::string& text) {
 
 }  // namespace
 
+std::string progressRate(double gained, double seconds, double share) {
+  constexpr double kShortest = 0.2;  // seconds
+  if (!(gained > 0) || seconds < kShortest) return "";
+  const double rate = gained / seconds, left = (1 - share) / rate;
+  const int whole = static_cast<int>(std::min(left + 0.5, 359999.0));
+  const std::string rest =
+      whole < 60 ? fmt::format("{} s", whole) : fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format(", {:.2g} %/s, {} left", 100 * rate, rest);
+}
+
 ProgressBar::ProgressBar(bool wanted)
     : mEnabled(wanted && ::isatty(STDERR_FILENO) == 1),
       mNextDraw((Clock::now() + kFirstDraw).time_since_epoch().count()) {}
@@ -31,6 +41,10 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::update(const char* stage, double share) {
   if (!mEnabled) return;
   const auto now = Clock::now();
+  if (mStage.load(std::memory_order_relaxed) != stage && mStage.exchange(stage) != stage) {
+    mStageStart = now.time_since_epoch().count();
+    mStageShare = share;
+  }
   auto due = mNextDraw.load(std::memory_order_relaxed);
   if (now.time_since_epoch().count() < due) return;
   const auto next = (now + kBetweenDraws).time_since_epoch().count();
@@ -39,7 +53,9 @@ void ProgressBar::update(const char* stage, double share) {
   mDrawn = true;
   const double done = std::clamp(share, 0.0, 1.0);
   const int filled = static_cast<int>(done * kWidth);
-  show(fmt::format("\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", filled, "", kWidth - filled, 100 * done, stage));
+  const std::chrono::duration<double> passed = now.time_since_epoch() - Clock::duration(mStageStart);
+  show(fmt::format("\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}{}", "", filled, "", kWidth - filled, 100 * done, stage,
+                   progressRate(done - mStageShare, passed.count(), done)));
 }
 
 }  // namespace pdc

@@ -108,7 +108,29 @@ class BodyReader {
     return mSoup.finish();
   }
 
+  std::optional<Buffer<float>> readProperty(const PlyHeader& header, std::string_view name) {
+    for (const PlyElement& element : header.elements) {
+      const bool wanted = element.name == "vertex" && std::any_of(element.properties.begin(), element.properties.end(),
+                                                                  [&](const auto& p) { return isSingle(p, name); });
+      Buffer<float> values;
+      for (std::size_t i = 0; i < element.count; ++i)
+        for (const PlyProperty& property : element.properties) {
+          if (wanted && isSingle(property, name)) {
+            values.push_back(static_cast<float>(mNumbers.next(property.type)));
+          } else {
+            skip(property);
+          }
+        }
+      if (wanted) return values;
+    }
+    return std::nullopt;
+  }
+
  private:
+  static bool isSingle(const PlyProperty& property, std::string_view name) {
+    return !property.isList() && property.name == name;
+  }
+
   void skip(const PlyProperty& property) {
     const double count = property.isList() ? mNumbers.next(property.countType) : 1;
     for (double i = 0; i < count; ++i) mNumbers.next(property.type);
@@ -175,14 +197,25 @@ class BodyReader {
   SoupBuilder mSoup;
 };
 
+/// Calls read(BodyReader) for the numbers as the header says they are written.
+template <typename Read>
+auto readBody(const PlyHeader& header, Read&& read) {
+  if (header.format == PlyFormat::kAscii) return read(BodyReader(TextNumbers(header.body)));
+  const bool little = header.format == PlyFormat::kLittleEndian;
+  const bool swap = little != (std::endian::native == std::endian::little);
+  return read(BodyReader(BinaryNumbers(header.body, swap)));
+}
+
 }  // namespace
 
 Mesh readPly(std::string_view bytes) {
   const PlyHeader header = parsePlyHeader(bytes);
-  if (header.format == PlyFormat::kAscii) return BodyReader(TextNumbers(header.body)).read(header);
-  const bool little = header.format == PlyFormat::kLittleEndian;
-  const bool swap = little != (std::endian::native == std::endian::little);
-  return BodyReader(BinaryNumbers(header.body, swap)).read(header);
+  return readBody(header, [&](auto reader) { return reader.read(header); });
+}
+
+std::optional<Buffer<float>> readPlyProperty(std::string_view bytes, std::string_view name) {
+  const PlyHeader header = parsePlyHeader(bytes);
+  return readBody(header, [&](auto reader) { return reader.readProperty(header, name); });
 }
 
 }  // namespace pdc::detail

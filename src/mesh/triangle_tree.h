@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/triangle_pair.h"
@@ -18,6 +19,15 @@ struct BoxF {
   void include(const BoxF& o) {
     lo = {std::min(lo.x, o.lo.x), std::min(lo.y, o.lo.y), std::min(lo.z, o.lo.z)};
     hi = {std::max(hi.x, o.hi.x), std::max(hi.y, o.hi.y), std::max(hi.z, o.hi.z)};
+  }
+  /// The square of the distance from a point; 0 inside.
+  [[nodiscard]] double squaredDistance(const Vec3d& p) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double beyond = std::max({double(lo[k]) - p[k], p[k] - double(hi[k]), 0.0});
+      sum += beyond * beyond;
+    }
+    return sum;
   }
   /// Boxes include their borders.
   [[nodiscard]] bool meets(const BoxF& o) const {
@@ -51,7 +61,28 @@ class TriangleTree {
     return visitBelow(mLevels.size() - 1, 0, i, mLevels.front()[i], visit);
   }
 
+  /// Calls visit(triangle) for all triangles that may be nearer to p than the square root of `reach`, which the visitor
+  /// may lower on the way; those of near boxes first.
+  template <typename Visit>
+  void visitNearest(const Vec3d& p, const double& reach, Visit&& visit) const {
+    if (!mLevels.empty()) visitNearestBelow(mLevels.size() - 1, 0, p, reach, visit);
+  }
+
  private:
+  template <typename Visit>
+  void visitNearestBelow(std::size_t level, std::size_t node, const Vec3d& p, const double& reach, Visit& visit) const {
+    if (level == 0) {
+      for (const std::uint32_t t : leaf(node)) visit(t);
+      return;
+    }
+    const std::size_t first = kFan * node, count = std::min(kFan, mLevels[level - 1].size() - first);
+    std::array<std::pair<double, std::size_t>, kFan> order;
+    for (std::size_t i = 0; i < count; ++i) order[i] = {mLevels[level - 1][first + i].squaredDistance(p), first + i};
+    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count && order[i].first < reach; ++i)
+      visitNearestBelow(level - 1, order[i].second, p, reach, visit);
+  }
+
   template <typename Visit>
   bool visitBelow(std::size_t level, std::size_t node, std::size_t first, const BoxF& box, Visit& visit) const {
     if (!mLevels[level][node].meets(box)) return true;

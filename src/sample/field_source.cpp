@@ -55,7 +55,7 @@ detail::LatticeFrame frameOf(const FieldSourceOptions& options) { return {option
 
 /// The function whose zero set is contoured. The box is pulled in to the last lattice point if it exceeds it by a hair:
 /// then everything on and beyond the lattice's limits is outside, and no cell beyond them can hold surface.
-FieldPtr levelField(FieldPtr field, const FieldSourceOptions& options) {
+FieldPtr makeLevelField(FieldPtr field, const FieldSourceOptions& options) {
   if (!field) throw std::invalid_argument("FieldSource: field is null");
   check(options);
   if (options.open) return std::make_shared<detail::CappedField>(std::move(field), options.iso);
@@ -68,7 +68,7 @@ FieldPtr levelField(FieldPtr field, const FieldSourceOptions& options) {
 }  // namespace
 
 FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
-    : mField(levelField(std::move(field), options)),
+    : mField(makeLevelField(std::move(field), options)),
       mOptions(options),
       mMap(Mat3d::diagonal(options.voxelSize, options.voxelSize, options.voxelSize), options.box.lo) {}
 

@@ -80,7 +80,8 @@ void waitUntilInterruptible(pid_t pid) {
 Outcome runPdc(const Arguments& arguments, const RunOptions& options) {
   const TemporaryFolder captured;
   const std::string out = options.standardOutput.empty() ? (captured / "out").string() : options.standardOutput;
-  const pid_t pid = start(arguments, out, captured / "err");
+  const std::string err = options.standardError.empty() ? (captured / "err").string() : options.standardError;
+  const pid_t pid = start(arguments, out, err);
   auto signalled = std::chrono::steady_clock::now();
   if (options.interruptAfter > 0) {
     waitUntilInterruptible(pid);
@@ -93,7 +94,7 @@ Outcome runPdc(const Arguments& arguments, const RunOptions& options) {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - signalled;
   return {.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
           .out = options.standardOutput.empty() ? readFile(out) : std::string(),
-          .err = readFile(captured / "err"),
+          .err = options.standardError.empty() ? readFile(err) : std::string(),
           .secondsAfterSignal = passed.count()};
 }
 

@@ -36,6 +36,7 @@ using Arguments = std::vector<std::string>;
 struct RunOptions {
   double interruptAfter = 0;        ///< Seconds from when it catches SIGINT to when it gets it; 0 for never.
   std::string standardOutput = {};  ///< A file or device in place of the captured output.
+  std::string standardError = {};   ///< The same for errors.
 };
 
 /// Runs the built pdc with these arguments and waits for it.

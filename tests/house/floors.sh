@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$1"
 
-declare -A floor_of=([math]=0 [mesh]=1 [field]=2 [sample]=3 [extract]=4 [io]=5)
+declare -A floor_of=([math]=0 [mesh]=1 [field]=2 [sample]=3 [extract]=4 [render]=4 [io]=5)
 readonly ground=-1 apps=6
 
 # Sets `floor` to that of a path below include/pdc or src, or of the text of an #include: by its folder; files beside the

@@ -145,6 +145,20 @@ TEST(ReadMesh, PlyWithOtherElementsListsCommentsAndCarriageReturns) {
   EXPECT_EQ(mesh.normals[3], (Vec3f{0, 1, 0}));
 }
 
+TEST(ReadMesh, PlyPropertiesOfVertices) {
+  const TemporaryFolder folder;
+  writeContents(folder / "a.ply",
+                "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
+                "property double confidence\nproperty float x\nproperty float y\nproperty float z\n"
+                "property list uchar int tags\nend_header\n3 0 1 2\n0.5 0 0 0 0\n0.25 1 0 0 2 7 8\n1 0 1 0 1 9\n");
+  EXPECT_EQ(readVertexProperty(folder / "a.ply", "confidence"), (Buffer<float>{0.5F, 0.25F, 1}));
+  EXPECT_EQ(readVertexProperty(folder / "a.ply", "y"), (Buffer<float>{0, 0, 1}));
+  for (const char* name : {"error", "tags", "vertex_indices"}) EXPECT_FALSE(readVertexProperty(folder / "a.ply", name));
+  writeContents(folder / "a.off", "OFF\n0 0 0\n");
+  EXPECT_FALSE(readVertexProperty(folder / "a.off", "confidence"));
+  EXPECT_THROW(static_cast<void>(readVertexProperty(folder / "none.ply", "confidence")), Error);
+}
+
 TEST(ReadMesh, PlyWithFacesFirst) {
   const Mesh mesh = readText(
       "a.ply", "ply\nformat ascii 1.0\n" + kPlyFaces + kPlyVertices + "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n");

@@ -30,6 +30,8 @@ class FieldSource final : public HermiteSource {
   void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                    HermiteBlock& hermite) const override;
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
+  /// What is contoured: zero on the surface, negative inside, cut off at the box unless open.
+  [[nodiscard]] const FieldPtr& levelField() const { return mField; }
 
  private:
   FieldPtr mField;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "pdc/render/image.h"
+
+namespace pdc {
+
+/// A picture as the bytes of a PNG file: RGB, eight bits, sRGB. The same picture gives the same bytes.
+/// \throws std::invalid_argument if the picture has no pixels or not as many as its size says.
+[[nodiscard]] std::vector<std::uint8_t> encodePng(const Image& image);
+
+/// Throws Error unless `path` ends in .png and lies in a folder that exists and can be written to. Makes no file.
+void checkPngPath(const std::filesystem::path& path);
+
+/// Writes a .png file, which appears under its name only when it is complete. \returns bytes written. \throws Error
+std::size_t writePng(const Image& image, const std::filesystem::path& path);
+
+}  // namespace pdc

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+
+#include "pdc/sample/hermite_source.h"
+
+namespace pdc {
+
+/// Another source's blocks and Hermite data, sampled once and kept: whoever contours it several times, with different
+/// options, samples once. Meshes are the same, byte for byte, as those of the source itself.
+///
+/// Takes 16 bytes per crossing and block that sees it, about 2 kB per block; the source is not needed any more. A
+/// block's data is found by its coordinate.
+class SampledSource final : public HermiteSource {
+ public:
+  /// Runs in parallel on the calling thread's arena. \throws Cancelled, whatever the source throws.
+  explicit SampledSource(const HermiteSource& source, const Monitor& monitor = {});
+  ~SampledSource() override;
+
+  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
+  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                   HermiteBlock& hermite) const override;
+  [[nodiscard]] const LatticeMap& map() const override { return mMap; }
+
+  /// Crossings kept, those that several blocks see counted for each.
+  [[nodiscard]] std::size_t crossings() const { return mCrossings.size(); }
+
+ private:
+  struct Crossing {
+    float t, nx, ny, nz;
+  };
+
+  LatticeMap mMap;
+  SurfaceBlocks mBlocks;
+  std::vector<std::size_t> mFirst;  ///< mCrossings of block i begin at mFirst[i].
+  Buffer<Crossing> mCrossings;
+};
+
+}  // namespace pdc

@@ -1,0 +1,70 @@
+#include "pdc/mesh/roughness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/faces.h"
+
+namespace pdc {
+namespace {
+
+/// Calls visit(triangle, its normal, as long as twice its area).
+template <typename Visit>
+void forEachNormal(const Mesh& mesh, Visit&& visit) {
+  for (std::size_t i = 0; i < detail::triangleCount(mesh); ++i) {
+    const Triangle t = detail::triangle(mesh, i);
+    const Vec3d a = vecCast<double>(mesh.positions[t[0]]);
+    visit(t, cross(vecCast<double>(mesh.positions[t[1]]) - a, vecCast<double>(mesh.positions[t[2]]) - a));
+  }
+}
+
+std::vector<Vec3d> vertexNormals(const Mesh& mesh) {
+  std::vector<Vec3d> normals(mesh.positions.size(), Vec3d{});
+  forEachNormal(mesh, [&](const Triangle& t, const Vec3d& n) {
+    for (const std::uint32_t v : t) normals[v] += n;
+  });
+  for (Vec3d& n : normals) n *= 1 / length(n);  // Not finite where there is none.
+  return normals;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> flatVertices(const Mesh& mesh, double degrees) {
+  detail::checkIndices(mesh);
+  const double least = std::cos(degrees * std::numbers::pi / 180);
+  const std::vector<Vec3d> normals = vertexNormals(mesh);
+  std::vector<std::uint8_t> flat(normals.size());
+  for (std::size_t v = 0; v < flat.size(); ++v) flat[v] = std::isfinite(dot(normals[v], normals[v]));
+  forEachNormal(mesh, [&](const Triangle& t, const Vec3d& n) {
+    for (const std::uint32_t v : t)
+      if (!(dot(n, normals[v]) >= least * length(n))) flat[v] = 0;
+  });
+  return flat;
+}
+
+double roughness(const Mesh& mesh, const std::vector<std::uint8_t>& chosen) {
+  detail::checkIndices(mesh);
+  const std::vector<Vec3d> normals = vertexNormals(mesh);
+  std::vector<Vec3d> sums(normals.size(), Vec3d{});
+  std::vector<double> counts(normals.size(), 0);
+  for (std::size_t i = 0; i < detail::faceCount(mesh); ++i) {
+    const auto face = detail::face(mesh, i);
+    // Each edge from its first end: a closed mesh names it once in either direction.
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      sums[face[k]] += vecCast<double>(mesh.positions[face[(k + 1) % face.size()]]);
+      counts[face[k]] += 1;
+    }
+  }
+  double squares = 0, used = 0;
+  for (std::size_t v = 0; v < std::min(chosen.size(), normals.size()); ++v) {
+    if (chosen[v] == 0) continue;
+    const double d = dot(normals[v], vecCast<double>(mesh.positions[v]) - sums[v] * (1 / counts[v]));
+    if (!std::isfinite(d)) continue;
+    squares += d * d;
+    used += 1;
+  }
+  return used > 0 ? std::sqrt(squares / used) : 0;
+}
+
+}  // namespace pdc

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "pdc/render/render.h"
+#include "render/ray_scene.h"
+#include "render/view_mesh.h"
+
+namespace pdc::detail {
+
+/// Everything tiles of one picture share.
+struct Picture {
+  const ViewMesh& mesh;
+  const RayScene& rays;
+  const RenderOptions& options;
+  float eyeHeight;  ///< z from which rays start: above the whole mesh.
+};
+
+/// Renders squares of a picture one after the other. A tile looks a few pixels beyond its borders, so that what it
+/// makes does not depend on how the picture is cut up. For one thread.
+class TileRenderer {
+ public:
+  static constexpr int kTileSide =
+      128;  ///< Pixels: the margin costs an eighth, two threads still share a small picture.
+
+  explicit TileRenderer(const Picture& picture);
+
+  /// Pixels from (x0, y0) to (x0 + kTileSide, y0 + kTileSide), as far as the picture goes.
+  void run(int x0, int y0, Image& image);
+
+ private:
+  struct Sample {
+    Vec3f normal{};   ///< Faces the viewer; zero where there is no surface.
+    float z = 0;      ///< Pixels, towards the viewer.
+    float value = 0;  ///< Of kValues, from 0 to 1.
+    float edge = 0;   ///< Darkness of a mesh edge over it.
+    bool hit = false, backFace = false;
+  };
+  /// Of a pixel: the nearest of its samples and the share of the sky that it sees.
+  struct Sky {
+    Vec3f normal{};
+    float z = 0, open = 1;
+    bool hit = false;
+  };
+
+  void castSamples();
+  [[nodiscard]] Sample cast(float x, float y) const;
+  [[nodiscard]] float edgeDarkness(std::uint32_t triangle, const std::array<float, 3>& weights) const;
+  void castSky();
+  [[nodiscard]] float openSky(const Vec3f& p, const Vec3f& n, int pattern) const;
+  [[nodiscard]] float skyAt(const Sample& sample, int column, int row) const;
+  [[nodiscard]] float lineDarkness(const Sample& sample, int column, int row) const;
+  [[nodiscard]] Vec3f color(int column, int row) const;
+  [[nodiscard]] const Sample& sampleAt(int column, int row) const { return mSamples[column + row * mSamplesAcross]; }
+
+  const Picture& mPicture;
+  int mLineReach;          ///< Half the width of lines, in samples.
+  int mMargin;             ///< Pixels.
+  int mPixelsAcross;       ///< With margins.
+  int mSamplesAcross;      ///< With margins.
+  float mSkyReach;         ///< How far occluders count, in pixels.
+  float mX0 = 0, mY0 = 0;  ///< Of the first pixel with margins, from the left and from the top.
+  std::vector<Sample> mSamples;
+  std::vector<Sky> mSky;
+};
+
+}  // namespace pdc::detail

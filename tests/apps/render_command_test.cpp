@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/program.h"
+
+namespace pdc::test {
+namespace {
+
+// A tetrahedron whose vertices know a number each, but not their confidence.
+const std::string kTetrahedron =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "property float error\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0 0\n1 0 0 1\n0 1 0 2\n0 0 1 0.5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  void expectRefusal(Arguments arguments, int exitCode, const std::vector<std::string>& mentions) {
+    arguments.insert(arguments.begin(), "render");
+    const auto before = mFolder.entries();
+    const Outcome outcome = runPdc(arguments);
+    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
+    for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    EXPECT_EQ(mFolder.entries(), before);
+  }
+  std::string draw(Arguments options) {
+    options.insert(options.begin(), {"render", mMesh, mPicture, "--size", "64x48"});
+    const Outcome outcome = runPdc(options);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    mSaid = outcome.out;
+    return readFile(mPicture);
+  }
+
+  TemporaryFolder mFolder;
+  std::string mMesh = mFolder.write("mesh.ply", kTetrahedron), mPicture = mFolder / "picture.png";
+  std::string mSaid;
+};
+
+TEST_F(RenderCommand, MakesAPictureOfTheSizeAskedFor) {
+  const std::string bytes = draw({});
+  EXPECT_EQ(bytes.substr(1, 3), "PNG");
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8));
+  EXPECT_NE(mSaid.find("64 x 48 pixels"), std::string::npos) << mSaid;
+  EXPECT_EQ(draw({"--quiet"}), bytes);
+  EXPECT_EQ(mSaid, "");
+  EXPECT_EQ(draw({"--threads", "1"}), draw({"--threads", "3"}));
+}
+
+TEST_F(RenderCommand, OptionsChangeThePicture) {
+  const std::string plain = draw({});
+  for (const Arguments& options : std::vector<Arguments>{
+           {"--view", "front"}, {"--view", "0.5,1,-2"}, {"--shading", "normal"}, {"--shading", "error"}, {"--edges"}})
+    EXPECT_NE(draw(options), plain) << options[0];
+  EXPECT_EQ(draw({"--view", "iso"}), plain);
+  EXPECT_EQ(draw({"--view", "2,-2,2"}), plain);
+}
+
+TEST_F(RenderCommand, ErrorIsAPropertyOrTheDistanceToAReference) {
+  const std::string property = draw({"--shading", "error"});
+  EXPECT_NE(mSaid.find("error from 0, blue, to 2, yellow"), std::string::npos) << mSaid;
+  EXPECT_NE(draw({"--shading", "error", "--range", "4"}), property);
+  EXPECT_NE(draw({"--shading", "error", "--reference", mMesh}), property);
+  EXPECT_NE(mSaid.find("to 0, yellow"), std::string::npos) << mSaid;
+}
+
+TEST_F(RenderCommand, BadRequestsFailInOneLine) {
+  expectRefusal({mMesh, mPicture, "--view", "sideways"}, 2, {"--view", "'sideways'", "iso, front"});
+  expectRefusal({mMesh, mPicture, "--view", "0,0,0"}, 2, {"--view", "'0,0,0'"});
+  expectRefusal({mMesh, mPicture, "--view", "1,2"}, 2, {"--view", "'1,2'"});
+  for (const char* size : {"0x10", "10", "10x", "1.5x2", "10x9000", "-1x1", "10x10x10"})
+    expectRefusal({mMesh, mPicture, std::string("--size=") + size}, 2, {"--size", size, "1 to 8192"});
+  expectRefusal({mMesh, mPicture, "--shading", "gold"}, 2, {"--shading", "gold"});
+  expectRefusal({mMesh, mPicture, "--reference", mMesh}, 2, {"--reference", "--shading error only"});
+  expectRefusal({mMesh, mPicture, "--range", "0"}, 2, {"--range", "> 0"});
+  expectRefusal({mMesh}, 2, {"OUT"});
+}
+
+TEST_F(RenderCommand, BadFilesFailInOneLine) {
+  expectRefusal({mFolder / "none.ply", mPicture}, 1, {"none.ply", "No such file"});
+  expectRefusal({mMesh, mFolder / "none/picture.png"}, 1, {"none", "No such file"});
+  expectRefusal({mMesh, mFolder / "picture.jpg"}, 1, {"picture.jpg", ".png"});
+  expectRefusal({mFolder.write("empty.off", "OFF\n1 0 0\n0 0 0\n"), mPicture}, 1, {"empty.off", "no faces"});
+  expectRefusal({mFolder.write("nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), mPicture}, 1, {"finite"});
+  expectRefusal({mMesh, mPicture, "--shading", "confidence"}, 1, {"mesh.ply", "\"confidence\""});
+  expectRefusal(
+      {mFolder.write("plain.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), mPicture, "--shading", "error"}, 1,
+      {"plain.off", "\"error\"", "--reference"});
+}
+
+TEST_F(RenderCommand, UnwritableFolder) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const auto folder = mFolder / "locked";
+  std::filesystem::create_directory(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  expectRefusal({mMesh, folder / "picture.png"}, 1, {"locked", "Permission denied"});
+}
+
+}  // namespace
+}  // namespace pdc::test

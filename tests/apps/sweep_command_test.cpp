@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/program.h"
+
+namespace pdc::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kScene = "voxel_size: 0.1\nbox: [[-1, -1, -1], [1, 1, 1]]\nshape: {box: {size: [1.1, 1.1, 1.1]}}\n";
+
+class SweepCommand : public ::testing::Test {
+ protected:
+  Json sweep(Arguments options, const std::string& input) {
+    options.insert(options.begin(), {"sweep", input, mOut});
+    const Outcome outcome = runPdc(options);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    mSaid = outcome.out;
+    return Json::parse(readFile(mOut + "/sweep.json"));
+  }
+  void expectRefusal(Arguments arguments, int exitCode, const std::vector<std::string>& mentions) {
+    arguments.insert(arguments.begin(), "sweep");
+    const Outcome outcome = runPdc(arguments);
+    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
+    for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(mOut + "/sweep.json"));
+  }
+
+  TemporaryFolder mFolder;
+  std::string mScene = mFolder.write("cube.yaml", kScene), mOut = mFolder / "out", mSaid;
+};
+
+TEST_F(SweepCommand, MeshesAreThoseOfPdcMesh) {
+  const std::string bullet = bulletGrid();
+  for (const std::string& input : {mScene, bullet}) {
+    sweep({"--sigma-n", "0,0.05,inf", "--meshes"}, input);
+    for (const char* sigma : {"0", "0.05", "inf"}) {
+      const std::string alone = mFolder / "alone.ply";
+      ASSERT_EQ(runPdc({"mesh", input, alone, "--sigma-n", sigma}).exitCode, 0);
+      EXPECT_EQ(readFile(mOut + "/sigma_n_" + sigma + ".ply"), readFile(alone)) << input << " " << sigma;
+    }
+  }
+}
+
+TEST_F(SweepCommand, ReportsWhatIsKnown) {
+  const Json report = sweep({"--sigma-n", "0,inf"}, mScene);
+  EXPECT_EQ(report["recommended"], 0);
+  EXPECT_EQ(report["steps"].size(), 2u);
+  EXPECT_EQ(report["steps"][1]["sigma_n"], "inf");
+  EXPECT_GT(report["steps"][1]["crease_rms"], report["steps"][0]["crease_rms"]);
+  EXPECT_EQ(report["steps"][0]["euler_number"], 2);
+  EXPECT_NE(report["command"].get<std::string>().find("pdc sweep " + mScene), std::string::npos);
+  EXPECT_NE(mSaid.find("sigma_n = 0 has the lowest true error"), std::string::npos) << mSaid;
+  for (const char* file : {"/sweep.csv", "/index.html"}) EXPECT_GT(readFile(mOut + file).size(), 100u);
+  // Of a grid nothing is known, unless a reference says it.
+  const std::string bullet = bulletGrid();
+  EXPECT_TRUE(sweep({"--sigma-n", "0.05"}, bullet)["steps"][0]["vertex_rms"].is_null());
+  const std::string mesh = mFolder / "mesh.ply";
+  ASSERT_EQ(runPdc({"mesh", bullet, mesh, "--sigma-n", "0.1"}).exitCode, 0);
+  EXPECT_EQ(sweep({"--sigma-n", "0.1,0.2", "--reference", mesh}, bullet)["recommended"], 0.1);
+  EXPECT_GT(sweep({"--sigma-n", "0.1", "--reference", mScene}, bullet)["steps"][0]["crease_rms"], 1);
+}
+
+TEST_F(SweepCommand, SweepsOverIsoAndVoxelSize) {
+  const Json isos = sweep({"--iso", "-0.2,0,0.2", "--quiet"}, mScene);
+  EXPECT_EQ(mSaid, "");
+  EXPECT_EQ(isos["parameter"], "iso");
+  EXPECT_TRUE(isos["recommended"].is_null());
+  for (const Json& step : isos["steps"]) EXPECT_LT(step["vertex_rms"], 0.1);
+  const Json sizes = sweep({"--voxel-size", "0.2,0.1", "--sigma-n", "0", "--meshes"}, mScene);
+  EXPECT_EQ(sizes["parameter"], "voxel_size");
+  EXPECT_LT(sizes["steps"][0]["vertices"], sizes["steps"][1]["vertices"]);
+  EXPECT_TRUE(std::filesystem::exists(mOut + "/voxel_size_0.2.ply"));
+}
+
+TEST_F(SweepCommand, StepsWithoutSurfaceAreBlankButNotAllMayBe) {
+  EXPECT_EQ(sweep({"--iso=0,-5"}, mScene)["steps"][1]["faces"], 0);
+  std::filesystem::remove_all(mOut);
+  expectRefusal({mScene, mOut, "--iso=-5,-6"}, 1, {"cube.yaml", "no surface at any value"});
+}
+
+TEST_F(SweepCommand, BadRequestsFailInOneLine) {
+  expectRefusal({mScene, mOut, "--sigma-n="}, 2, {"--sigma-n", "LIST missing"});
+  for (const char* list : {",", "0,", "0,-0.1", "-1", "nan", "0;1", "a,b", "0, 1"})
+    expectRefusal({mScene, mOut, std::string("--sigma-n=") + list}, 2, {"--sigma-n", list, ">= 0 or inf"});
+  expectRefusal({mScene, mOut, "--sigma-n", "0.1,0.2,0.1"}, 2, {"--sigma-n", "twice"});
+  expectRefusal({mScene, mOut, "--iso=0,inf"}, 2, {"--iso", "finite"});
+  expectRefusal({mScene, mOut, "--voxel-size=0,1"}, 2, {"--voxel-size", "> 0"});
+  expectRefusal({mScene, mOut, "--iso=0,1", "--sigma-n=0,1"}, 2, {"--iso", "--sigma-n", "several values"});
+  expectRefusal({mScene, mOut, "--view", "sideways"}, 2, {"--view", "sideways"});
+  expectRefusal({bulletGrid(), mOut, "--voxel-size=1,2"}, 2, {"--voxel-size", "scenes only"});
+  expectRefusal({mScene}, 2, {"OUTDIR"});
+}
+
+TEST_F(SweepCommand, BadFilesFailInOneLine) {
+  expectRefusal({mFolder / "none.vdb", mOut}, 1, {"none.vdb", "No such file"});
+  expectRefusal({mFolder.write("mesh.obj", "v 0 0 0\n"), mOut}, 1, {"mesh.obj", ".vdb"});
+  expectRefusal({mScene, mFolder / "none/out"}, 1, {"none/out", "No such file"});
+  expectRefusal({mScene, mFolder.write("file", "x")}, 1, {"file", "folder"});
+  expectRefusal({mScene, mOut, "--reference", mFolder / "none.ply"}, 1, {"none.ply", "No such file"});
+  expectRefusal({mScene, mOut, "--reference", mFolder.write("empty.off", "OFF\n1 0 0\n0 0 0\n")}, 1,
+                {"empty.off", "no faces"});
+}
+
+TEST_F(SweepCommand, UnwritableFolder) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  std::filesystem::create_directory(mOut);
+  std::filesystem::permissions(mOut, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  expectRefusal({mScene, mOut}, 1, {"out", "Permission denied"});
+}
+
+}  // namespace
+}  // namespace pdc::test

@@ -1,0 +1,30 @@
+#include "pdc/sample/normal_noise.h"
+
+#include <gtest/gtest.h>
+
+#include "pdc/sample/field_source.h"
+#include "pdc/sample/grid_source.h"
+#include "sample/noisy_part.h"
+
+namespace pdc {
+namespace {
+
+FieldSource sourceOf(const FieldPtr& field) { return {field, {.box = test::kDrilledBoxBounds, .voxelSize = 0.05}}; }
+
+TEST(NormalNoise, IsZeroOnFlatFacesWhateverTheCreases) {
+  EXPECT_EQ(normalNoise(sourceOf(box({0, 0, 0}, {1, 1, 0.5}))), 0);
+}
+
+// The gradient of values with independent errors: about proportional to them.
+TEST(NormalNoise, GrowsWithTheNoiseOfTheValues) {
+  double last = 0;
+  for (const double noise : {0.02, 0.05, 0.1, 0.2}) {
+    const double found = normalNoise(GridSource(test::noisyLevelSet(0.05, noise, 3)));
+    EXPECT_GT(found, last);
+    EXPECT_NEAR(found / noise, 0.8, 0.2);
+    last = found;
+  }
+}
+
+}  // namespace
+}  // namespace pdc
