@@ -90,7 +90,9 @@ Outcome evaluate(const Case& c, const Pose& pose, unsigned seed, const Request& 
     if (c.method == "volume_to_mesh") {
       mesh = volumeToMesh(input);
     } else {
-      const GridSource source(input.grid, {.iso = input.iso});
+      const GridSource source(
+          input.grid,
+          {.iso = input.iso, .hermite = c.method == "distance" ? HermiteMode::kDistance : HermiteMode::kGradient});
       mesh = contourCase(c, source, request, outcome);
     }
   }

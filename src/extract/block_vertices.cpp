@@ -75,7 +75,8 @@ struct Waiting {
   Coord cell;
   unsigned edges;
   std::uint64_t vertex;
-  bool strict;  ///< See CellEntry.
+  bool strict;                                    ///< See CellEntry.
+  const FeaturePlanes::Patch* feature = nullptr;  ///< Null: its crossings are all there is.
 };
 
 /// The sign-changing edges of the patch that vertex v of a special cell belongs to.
@@ -102,22 +103,40 @@ struct BlockVertexSolver::Scratch {
   void run(const BlockState& block) {
     fillCrossings(block);
     block.counts.crossings += block.topology.quadCount;
-    const BlockTopology& topology = block.topology;
-    std::uint64_t vertex = topology.firstVertex;
+    const FeaturePlanes::Patch* feature = planes.patches.data();
+    const FeaturePlanes::Patch* const end = feature + planes.patches.size();
+    std::uint64_t vertex = block.topology.firstVertex;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+      const int cell = patches[i].cell;
+      const bool here = feature != end && feature->patch == i;
+      add(block, {{cell >> 6, cell >> 3 & 7, cell & 7},
+                  patches[i].edges,
+                  vertex++,
+                  strict[i] != 0,
+                  here ? feature++ : nullptr});
+    }
+    flush(block);
+  }
+
+  /// Lists the block's patches in the order of their vertices.
+  void listPatches(const BlockTopology& topology, const BlockSigns& signs) {
+    patches.clear();
+    strict.clear();
     for (int x = 0; x < kBlockSize; ++x)
       for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
-        const CellEntry& entry = kCellTable[cellCode(block.signs, x, y, z)];
-        const unsigned present = entry.edges;
+        const CellEntry& entry = kCellTable[cellCode(signs, x, y, z)];
         const SpecialCell* special = topology.special.empty() ? nullptr : topology.findSpecial(64 * x + bit);
+        const auto list = [&](unsigned edges, bool isStrict) {
+          patches.push_back({static_cast<std::uint16_t>(64 * x + bit), static_cast<std::uint16_t>(edges)});
+          strict.push_back(isStrict);
+        };
         if (special == nullptr) {
-          add(block, {{x, y, z}, present, vertex++, entry.strict});
+          list(entry.edges, entry.strict);
         } else {
-          for (int v = 0; v < special->vertexCount; ++v)
-            add(block, {{x, y, z}, patchEdges(*special, present, v), vertex++, true});
+          for (int v = 0; v < special->vertexCount; ++v) list(patchEdges(*special, entry.edges, v), true);
         }
       }
-    flush(block);
   }
 
   void fillCrossings(const BlockState& block) {
@@ -142,6 +161,10 @@ struct BlockVertexSolver::Scratch {
   }
 
   void add(const BlockState& block, const Waiting& w) {
+    if (w.feature != nullptr) {
+      solveAlone(block, w);
+      return;
+    }
     waiting[lanes] = w;
     if (solver.batched()) sumPlanes(block, waiting[lanes], lanes);
     if (++lanes == kLanes) flush(block);
@@ -217,6 +240,14 @@ struct BlockVertexSolver::Scratch {
       sampleAxis[samples.size] = edgeAxis(std::countr_zero(bits));
       samples.position[samples.size] = vecCast<double>(vec3(c.place)) - center;
       samples.row[samples.size++] = vecCast<double>(vec3(c.row));
+    }
+    samples.features = {};
+    if (w.feature != nullptr) {
+      // About the centre of the cell.
+      features.assign(planes.of(*w.feature).begin(), planes.of(*w.feature).end());
+      for (FeaturePlanes::Plane& p : features) p.point -= vecCast<float>(center);
+      samples.features = features;
+      samples.featureSigma = w.feature->sigmaNormal;
     }
     const SolvedVertex v = solver.solve(samples, block.metric);
     block.counts.outOfCell += v.outOfCell;
@@ -296,6 +327,10 @@ struct BlockVertexSolver::Scratch {
   const SimdLevel level;
   SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
   HermiteBlock hermite;
+  std::vector<SurfacePatch> patches;
+  std::vector<std::uint8_t> strict;  ///< Of each patch, whether its cell is a strict one.
+  FeaturePlanes planes;
+  std::vector<FeaturePlanes::Plane> features;  ///< Of the vertex being solved.
   std::array<Crossing, EdgeIndex::kMaxEdges> crossing;
   std::array<Waiting, kLanes> waiting;
   std::array<Vec3f, kLanes> mass;
@@ -321,6 +356,9 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const double sigma = mScratch->solver.sigma();
   mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
   mSource.fillHermite(block, signs, edges, mScratch->hermite);
+  mScratch->listPatches(topology.blocks[index], signs);
+  mScratch->planes.clear();
+  mSource.fillFeaturePlanes(block, signs, edges, mScratch->hermite, mScratch->patches, mScratch->planes);
   const BlockState state{static_cast<std::int32_t>(index),
                          topology.blocks[index],
                          signs,

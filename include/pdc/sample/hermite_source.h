@@ -4,6 +4,7 @@
 
 #include "pdc/mesh/mesh.h"
 #include "pdc/monitor.h"
+#include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
 #include "pdc/sample/lattice_map.h"
 
@@ -21,8 +22,8 @@ class HermiteSource {
  public:
   virtual ~HermiteSource() = default;
 
-  /// All blocks with a sign change, each once, sorted by coordinate (x, then y, then z). Signs of points that two blocks
-  /// share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
+  /// All blocks with a sign change, each once, sorted by coordinate (x, then y, then z). Signs of points that two
+  /// blocks share agree. Closed under continuation: if points on the face between two blocks differ in sign, both
   /// blocks are there (unless no cell of the other one takes part). Runs in parallel on the calling thread's arena.
   /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
@@ -30,6 +31,12 @@ class HermiteSource {
   /// Fills crossings and normals of one block for the edges of `edges`, which was made from `signs`. Does not allocate.
   virtual void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                            HermiteBlock& hermite) const = 0;
+
+  /// Fills what the source knows of a block's patches beyond `hermite`, which it has filled before. Sources that know
+  /// nothing more leave `planes`, which comes empty, as it is. Allocates only while `planes` has not grown to its size.
+  virtual void fillFeaturePlanes(const Coord& /*block*/, const BlockSigns& /*signs*/, const EdgeIndex& /*edges*/,
+                                 const HermiteBlock& /*hermite*/, std::span<const SurfacePatch> /*patches*/,
+                                 FeaturePlanes& /*planes*/) const {}
 
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;
