@@ -14,6 +14,8 @@ struct MeshInput {
   std::unique_ptr<const HermiteSource> source;
   double iso = 0;
   double sigmaNormal = 0;                 ///< What the input says, or the library's default.
+  std::string hermite;                    ///< Where planes come from: gradient, distance or function.
+  double valueNoise = 0;                  ///< In voxels, as far as it was estimated.
   std::function<std::string()> whyEmpty;  ///< Says in a clause why there is no surface; may read the file again.
 };
 
