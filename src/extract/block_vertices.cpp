@@ -289,9 +289,16 @@ struct BlockVertexSolver::Scratch {
     return mean;
   }
 
-  /// Mean squared distance to the samples' planes, in voxels squared.
+  /// Mean squared distance to the planes that place the vertex, in voxels squared.
   [[nodiscard]] double planeError(const Vec3d& x) const {
     double sum = 0;
+    if (!samples.features.empty()) {
+      for (const FeaturePlanes::Plane& p : samples.features) {
+        const double distance = dot(vecCast<double>(p.row), x - vecCast<double>(p.point));
+        sum += distance * distance;
+      }
+      return sum / static_cast<double>(samples.features.size());
+    }
     for (int i = 0; i < samples.size; ++i) {
       const double distance = dot(samples.row[i], x - samples.position[i]);
       sum += distance * distance;

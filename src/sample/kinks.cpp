@@ -18,7 +18,7 @@ Kinks findKinks(const DistanceWindow& window, float tolerance, SimdLevel level) 
       int any = 0;
       for (const int step : DistanceWindow::kStep) {
         const OneSidedSlopes s(first + lane, step);
-        any |= int(!(std::abs(s.above - s.below) <= tolerance));
+        any |= int(std::abs(s.above - s.below) > tolerance);
       }
       kinked[lane] = any;
     });

@@ -27,8 +27,8 @@ struct OneSidedSlopes {
   float below, above;
 };
 
-/// The voxels of a block and about it, -1 to 9 on each axis, whose slopes from both sides differ along some axis: a
-/// crease's bisector passes by, or not all is known.
+/// The voxels of a block and about it, -1 to 9 on each axis, whose slopes from both sides are known and differ along
+/// some axis: a crease's bisector passes by.
 class Kinks {
  public:
   /// True if there are none in the 4×4×4 voxels about a cell.
