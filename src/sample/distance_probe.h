@@ -16,8 +16,9 @@ struct DistanceProbe {
 ///
 /// Slopes are central differences within two voxels of the surface. Noise is the first quartile of the sizes of third
 /// differences along the axes, over what it is for Gaussian noise of deviation 1: smooth surfaces have third
-/// differences of the order of their curvature's square, and where half of all voxels are beside a crease the quartile
-/// is still one of the others. \param K from steps in world space, in voxels, to lattice units.
+/// differences of the order of their curvature's square, and creases move a quartile less than a median. Where most
+/// voxels are beside a crease it is still up to half too high.
+/// \param K from steps in world space, in voxels, to lattice units.
 [[nodiscard]] DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double voxelSize);
 
 }  // namespace pdc::detail

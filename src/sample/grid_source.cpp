@@ -51,8 +51,8 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
   return LatticeMap(position, jacobian, {});
 }
 
-/// A median slope this far from one belongs to something else than a distance: exact distances have 0.001, level sets
-/// with noise of 0.1 voxel 0.06, the log-odds and densities seen more than 0.3.
+/// A median slope this far from one belongs to something else than a distance: exact distances have at most 0.001, with
+/// noise of 0.1 voxel 0.05 to 0.07.
 constexpr double kSlopeError = 0.15;
 
 /// \returns nothing where crossings are all there is to take planes from.

@@ -1,4 +1,5 @@
-// Creases of solids and poses that no constant of the estimator was chosen with. Figures are in voxels; see docs/features.md.
+// Creases of solids and poses that no constant of the estimator was chosen with. Figures are in voxels; see
+// docs/features.md.
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
