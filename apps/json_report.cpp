@@ -52,6 +52,8 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"iso", run.iso},
           {"sigma_n", std::isinf(sigma) ? Json("inf") : Json(sigma)},
           {"placement", request.placement},
+          {"hermite", run.hermite},
+          {"value_noise_voxels", run.valueNoise},
           {"threads", threads},
           {"bytes_written", run.bytesWritten},
           {"peak_memory_bytes", peakMemoryBytes()},

@@ -15,6 +15,8 @@ struct MeshRun {
   ContourOptions options;
   ContourReport contour;
   double iso = 0;
+  std::string hermite;    ///< See MeshInput.
+  double valueNoise = 0;  ///< See MeshInput.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   double secondsRead = 0, secondsContour = 0, secondsWrite = 0, secondsTotal = 0;

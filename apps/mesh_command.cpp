@@ -68,6 +68,8 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   }();
   run.secondsRead = stopwatch.lap();
   run.iso = input.iso;
+  run.hermite = input.hermite;
+  run.valueNoise = input.valueNoise;
   run.options = request.contourOptions(input.sigmaNormal);
 
   Mesh mesh;
@@ -88,6 +90,8 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
   fmt::print("{}: {} vertices, {} {}, {}; {} bytes\n", request.output.string(), run.vertices,
              run.options.triangles ? run.triangles : run.quads, run.options.triangles ? "triangles" : "quads", boundary,
              run.bytesWritten);
+  if (run.hermite == "distance")
+    fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
              run.secondsContour, run.secondsWrite);
 }

@@ -24,15 +24,25 @@ std::string whyGridIsEmpty(const std::filesystem::path& path, const std::string&
   return fmt::format("the grid has no surface at iso {}", iso);
 }
 
+HermiteMode hermiteMode(const MeshRequest& request) {
+  if (request.hermite == "gradient") return HermiteMode::kGradient;
+  return request.hermite == "distance" ? HermiteMode::kDistance : HermiteMode::kAuto;
+}
+
 MeshInput openGrid(const MeshRequest& request) {
   const auto grid = readVdbGrid(request.input, request.grid.value_or(""));
-  auto source = std::make_unique<GridSource>(
-      grid, GridSourceOptions{.iso = request.iso, .open = request.open, .acceptNonFinite = request.nan == "outside"});
-  const double iso = source->iso();
+  auto source = std::make_unique<GridSource>(grid, GridSourceOptions{.iso = request.iso,
+                                                                     .open = request.open,
+                                                                     .acceptNonFinite = request.nan == "outside",
+                                                                     .hermite = hermiteMode(request)});
+  const double iso = source->iso(), noise = source->valueNoise();
+  const auto hermite = source->usesDistances() ? "distance" : "gradient";
   return {.source = std::move(source),
           .iso = iso,
           .sigmaNormal = ContourOptions{}.sigmaNormal,
           .field = nullptr,
+          .hermite = hermite,
+          .valueNoise = noise,
           .whyEmpty = [path = request.input, name = grid->getName(), iso] { return whyGridIsEmpty(path, name, iso); }};
 }
 
@@ -53,6 +63,7 @@ MeshInput openScene(const MeshRequest& request) {
           .iso = iso,
           .sigmaNormal = scene.sigmaNormal.value_or(ContourOptions{}.sigmaNormal),
           .field = field,
+          .hermite = "function",
           .whyEmpty = [iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); }};
 }
 

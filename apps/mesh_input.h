@@ -16,6 +16,8 @@ struct MeshInput {
   double iso = 0;
   double sigmaNormal = 0;  ///< What the input says, or the library's default.
   FieldPtr field;          ///< Of a scene: zero on the surface that the mesh should have. Null of a grid.
+  std::string hermite;     ///< Where planes come from: gradient, distance or function.
+  double valueNoise = 0;   ///< In voxels, as far as it was estimated.
   std::function<std::string()> whyEmpty;  ///< Says in a clause why there is no surface; may read the file again.
 };
 

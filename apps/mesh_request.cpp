@@ -51,6 +51,13 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("MODE")
       ->check(CLI::IsMember({"error", "outside"}))
       ->group(grids);
+  command
+      .add_option("--hermite", request.hermite,
+                  "Where planes come from (auto): gradients at crossings; or,\n"
+                  "beside creases, distances; auto: distances if the grid has them")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"auto", "gradient", "distance"}))
+      ->group(grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -103,6 +110,7 @@ void checkMeshRequest(const MeshRequest& request) {
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
       refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
+      refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
       break;
     case InputKind::kOther:
       throw Error(

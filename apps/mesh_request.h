@@ -12,7 +12,7 @@ namespace pdc {
 /// What the command line of `pdc mesh` says. Absent: not said.
 struct MeshRequest {
   std::filesystem::path input, output, json;
-  std::optional<std::string> grid, nan;
+  std::optional<std::string> grid, nan, hermite;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   std::string placement = "certified";

@@ -93,7 +93,7 @@ struct BlockVertexSolver::Scratch {
         solve(block);
         write(block, first, used);
         for (int lane = 0; lane < used; ++lane)
-          if (mustSolveAlone(block, patches.patch(first + lane), lane)) {
+          if (mustSolveAlone(block, first + lane, lane)) {
             solveAlone(block, first + lane);
           } else {
             block.counts.outOfCell += lanes.reach[lane] > 0.5F;
@@ -194,7 +194,23 @@ struct BlockVertexSolver::Scratch {
     }
   }
 
-  [[nodiscard]] bool mustSolveAlone(const BlockState& block, const Patch& patch, int lane) const {
+  /// Lists the block's patches for the source. \pre patches are listed
+  void listForSource() {
+    forSource.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      forSource.push_back({patches.patch(i).cell, static_cast<std::uint16_t>(patches.patch(i).edges.bits())});
+  }
+
+  /// What the source knows of patch i beyond its crossings, or null.
+  [[nodiscard]] const FeaturePlanes::Patch* featureOf(std::size_t i) const {
+    const auto it = std::lower_bound(planes.patches.begin(), planes.patches.end(), i,
+                                     [](const FeaturePlanes::Patch& p, std::size_t n) { return p.patch < n; });
+    return it != planes.patches.end() && it->patch == i ? &*it : nullptr;
+  }
+
+  [[nodiscard]] bool mustSolveAlone(const BlockState& block, std::size_t i, int lane) const {
+    const Patch& patch = patches.patch(i);
+    if (featureOf(i) != nullptr) return true;
     const bool promised = block.out.doubts != nullptr;
     const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
     return lanes.step.solved[lane] == 0 || (promised && patch.strict) || !(lanes.reach[lane] <= limit);
@@ -210,6 +226,14 @@ struct BlockVertexSolver::Scratch {
       sampleAxis[k] = edgeAxis(e);
       samples.position[k] = vecCast<double>(crossings.place(edge)) - center;
       samples.row[k] = vecCast<double>(crossings.plane(edge));
+    }
+    samples.features = {};
+    if (const FeaturePlanes::Patch* feature = featureOf(i)) {
+      // About the centre of the cell.
+      features.assign(planes.of(*feature).begin(), planes.of(*feature).end());
+      for (FeaturePlanes::Plane& p : features) p.point -= vecCast<float>(center);
+      samples.features = features;
+      samples.featureSigma = feature->sigmaNormal;
     }
     const SolvedVertex v = solver.solve(samples, block.metric);
     block.counts.outOfCell += v.outOfCell;
@@ -252,9 +276,16 @@ struct BlockVertexSolver::Scratch {
     return mean;
   }
 
-  /// Mean squared distance to the samples' planes, in voxels squared.
+  /// Mean squared distance to the planes that place the vertex, in voxels squared.
   [[nodiscard]] double planeError(const Vec3d& x) const {
     double sum = 0;
+    if (!samples.features.empty()) {
+      for (const FeaturePlanes::Plane& p : samples.features) {
+        const double distance = dot(vecCast<double>(p.row), x - vecCast<double>(p.point));
+        sum += distance * distance;
+      }
+      return sum / static_cast<double>(samples.features.size());
+    }
     for (int i = 0; i < samples.size; ++i) {
       const double distance = dot(samples.row[i], x - samples.position[i]);
       sum += distance * distance;
@@ -292,6 +323,9 @@ struct BlockVertexSolver::Scratch {
   HermiteBlock hermite;
   CrossingRows crossings;
   PatchSums patches;
+  std::vector<SurfacePatch> forSource;  ///< The same patches.
+  FeaturePlanes planes;
+  std::vector<FeaturePlanes::Plane> features;  ///< Of the vertex being solved.
   PatchLanes lanes;
   PatchSamples samples;
   std::array<int, PatchSamples::kMax> sampleAxis;
@@ -318,6 +352,9 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
   scratch.patches.list(topology.blocks[index], signs);
   scratch.patches.sum(scratch.crossings, edges, scratch.level);
+  scratch.listForSource();
+  scratch.planes.clear();
+  mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.forSource, scratch.planes);
   const BlockState state{static_cast<std::int32_t>(index),
                          topology.blocks[index].firstVertex,
                          edges,

@@ -45,6 +45,7 @@ VertexSolver::VertexSolver(double sigmaNormal, double halfSize) : mSigma(sigmaNo
 bool VertexSolver::batched() const { return mSigma >= kMinBatchSigma && std::isfinite(mSigma); }
 
 SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& metric) const {
+  if (!samples.features.empty() && !std::isinf(mSigma)) return solveFeatures(samples, metric);
   const double n = samples.size;
   Vec3d positions{};
   Quadric<double> q = Quadric<double>::zero();
@@ -64,6 +65,24 @@ SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& 
   // About the mass point the right-hand side is small where the surface is flat, and so is what rounding does to it.
   const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
   if (!step) return solveClassical(q, massPoint, metric);  // σn² drowned in rounding.
+  SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
+  constrain(v, q.A, q.b);
+  v.halfGradient = q.halfGradient(v.x);
+  return v;
+}
+
+SolvedVertex VertexSolver::solveFeatures(const PatchSamples& samples, const CellMetric& metric) const {
+  Vec3d massPoint{};
+  for (int i = 0; i < samples.size; ++i) massPoint += samples.position[i] * (1.0 / samples.size);
+  Quadric<double> q = Quadric<double>::zero();
+  for (const FeaturePlanes::Plane& p : samples.features)
+    q += planeQuadric(vecCast<double>(p.point), vecCast<double>(p.row));
+  const SymMat3<double> Sigma_n =
+      metric.G * (samples.featureSigma * samples.featureSigma * static_cast<double>(samples.features.size()));
+  q.A += Sigma_n;
+  q.b += Sigma_n * massPoint;
+  const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
+  if (!step) return solveClassical(q, massPoint, metric);
   SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
   constrain(v, q.A, q.b);
   v.halfGradient = q.halfGradient(v.x);

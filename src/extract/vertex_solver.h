@@ -5,6 +5,7 @@
 
 #include "pdc/extract/contour.h"
 #include "pdc/math/quadric.h"
+#include "pdc/sample/feature_planes.h"
 
 namespace pdc::detail {
 
@@ -27,6 +28,9 @@ struct PatchSamples {
   /// where there is no normal.
   std::array<Vec3d, kMax> row;
   int size = 0;
+  /// Planes that take the place of those above, which then say only where the patch is; `point` from the centre too.
+  std::span<const FeaturePlanes::Plane> features{};
+  double featureSigma = 0;  ///< σn of them.
 };
 
 struct SolvedVertex {
@@ -63,6 +67,7 @@ class VertexSolver {
   [[nodiscard]] bool batched() const;
 
  private:
+  [[nodiscard]] SolvedVertex solveFeatures(const PatchSamples& samples, const CellMetric& metric) const;
   [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
   void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;
 

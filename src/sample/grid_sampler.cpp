@@ -122,6 +122,39 @@ class TypedGridSampler final : public GridSampler {
     });
   }
 
+  [[nodiscard]] std::vector<Coord> someLeaves(std::size_t most) const override {
+    std::vector<const LeafT*> leaves;
+    mGrid->tree().getNodes(leaves);
+    std::vector<Coord> some(std::min(most, leaves.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const openvdb::Coord o = leaves[i * leaves.size() / some.size()]->origin();
+      some[i] = blockOf({o.x(), o.y(), o.z()});
+    }
+    return some;
+  }
+
+  void readWindow(const Coord& block, float scale, DistanceWindow& window) const override {
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::array<int, 3> kFirst{-DistanceWindow::kReach, 0, kBlockSize},
+        kEnd{0, kBlockSize, kBlockPoints + DistanceWindow::kReach};
+    Accessor accessor(mGrid->tree());
+    Rows rows;
+    for (int part = 0; part < 27; ++part) {
+      const int px = part / 9, py = part / 3 % 3, pz = part % 3;
+      rows.find(accessor, openvdb::Coord((block[0] + px - 1) * kBlockSize, (block[1] + py - 1) * kBlockSize,
+                                         (block[2] + pz - 1) * kBlockSize));
+      for (int x = kFirst[px]; x < kEnd[px]; ++x)
+        for (int y = kFirst[py]; y < kEnd[py]; ++y) {
+          std::array<float, kBlockSize> row;
+          mReader.template copy<kBlockSize>(rows.at(x, y), row.data());
+          for (int z = kFirst[pz]; z < kEnd[pz]; ++z) {
+            const float v = row[z & 7];
+            window.value[DistanceWindow::index(x, y, z)] = v > mLow && v < mHigh ? v * scale : kUnknown;
+          }
+        }
+    }
+  }
+
  private:
   /// Every block whose 9×9×9 points are not all on one side, each once, sorted.
   [[nodiscard]] std::vector<Coord> mixedBlocks(const Signs& leaves, const Monitor& monitor) const {

@@ -3,8 +3,10 @@
 #include <openvdb/Grid.h>
 
 #include <memory>
+#include <vector>
 
 #include "pdc/sample/hermite_source.h"
+#include "sample/distance_window.h"
 
 namespace pdc::detail {
 
@@ -26,6 +28,10 @@ class GridSampler {
   virtual void expect(const Coord& block) const = 0;
   virtual void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                            HermiteBlock& hermite) const = 0;
+  /// Up to `most` leaves, as blocks, spread evenly over the tree.
+  [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
+  /// The values about a block times `scale`.
+  virtual void readWindow(const Coord& block, float scale, DistanceWindow& window) const = 0;
 };
 
 /// \returns null if the grid's type is not one of float, double, int32, int64, bool.

@@ -10,7 +10,10 @@
 namespace pdc {
 
 SampledSource::SampledSource(const HermiteSource& source, const Monitor& monitor)
-    : mMap(source.map()), mBlocks(source.surfaceBlocks(monitor)), mFirst(mBlocks.coords.size() + 1, 0) {
+    : mSource(source),
+      mMap(source.map()),
+      mBlocks(source.surfaceBlocks(monitor)),
+      mFirst(mBlocks.coords.size() + 1, 0) {
   const std::size_t count = mBlocks.coords.size();
   constexpr std::size_t kGrain = 16;
   const tbb::blocked_range<std::size_t> all(0, count, kGrain);
@@ -53,6 +56,12 @@ void SampledSource::fillHermite(const Coord& block, const BlockSigns& /*signs*/,
     hermite.ny[e] = in[e].ny;
     hermite.nz[e] = in[e].nz;
   }
+}
+
+void SampledSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                                      const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
+                                      FeaturePlanes& planes) const {
+  mSource.fillFeaturePlanes(block, signs, edges, hermite, patches, planes);
 }
 
 }  // namespace pdc

@@ -4,6 +4,7 @@
 
 #include "pdc/mesh/mesh.h"
 #include "pdc/monitor.h"
+#include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
 #include "pdc/sample/lattice_map.h"
 
@@ -33,6 +34,11 @@ class HermiteSource {
 
   /// A hint that fillHermite() will soon be called for `block`, so that its data may be fetched meanwhile.
   virtual void expect(const Coord& block) const { static_cast<void>(block); }
+  /// Fills what the source knows of a block's patches beyond `hermite`, which it has filled before. Sources that know
+  /// nothing more leave `planes`, which comes empty, as it is. Allocates only while `planes` has not grown to its size.
+  virtual void fillFeaturePlanes(const Coord& /*block*/, const BlockSigns& /*signs*/, const EdgeIndex& /*edges*/,
+                                 const HermiteBlock& /*hermite*/, std::span<const SurfacePatch> /*patches*/,
+                                 FeaturePlanes& /*planes*/) const {}
 
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;

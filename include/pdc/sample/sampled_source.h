@@ -9,8 +9,8 @@ namespace pdc {
 /// Another source's blocks and Hermite data, sampled once and kept: whoever contours it several times, with different
 /// options, samples once. Meshes are the same, byte for byte, as those of the source itself.
 ///
-/// Takes 16 bytes per crossing and block that sees it, about 2 kB per block; the source is not needed any more. A
-/// block's data is found by its coordinate.
+/// Takes 16 bytes per crossing and block that sees it, about 2 kB per block. A block's data is found by its coordinate.
+/// The source must live as long: planes beyond the crossings are asked of it each time.
 class SampledSource final : public HermiteSource {
  public:
   /// Runs in parallel on the calling thread's arena. \throws Cancelled, whatever the source throws.
@@ -20,6 +20,9 @@ class SampledSource final : public HermiteSource {
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
   void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                    HermiteBlock& hermite) const override;
+  void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                         const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
+                         FeaturePlanes& planes) const override;
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
 
   /// Crossings kept, those that several blocks see counted for each.
@@ -30,6 +33,7 @@ class SampledSource final : public HermiteSource {
     float t, nx, ny, nz;
   };
 
+  const HermiteSource& mSource;
   LatticeMap mMap;
   SurfaceBlocks mBlocks;
   std::vector<std::size_t> mFirst;  ///< mCrossings of block i begin at mFirst[i].

@@ -1,0 +1,77 @@
+#include "eval/inputs.h"
+
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace pdc::eval {
+namespace {
+
+constexpr float kHalfWidth = 3;
+
+/// distance + shift, clamped to the band.
+openvdb::FloatGrid::Ptr sampleDistance(const Shape& shape, const Pose& pose, double shift) {
+  auto grid = openvdb::FloatGrid::create(kHalfWidth);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  const auto value = [&](const openvdb::Vec3d& p) {
+    return shape.distance(pose.toShape({p.x(), p.y(), p.z()})) * pose.size + shift;
+  };
+  // All solids lie within twice their half size.
+  const int reach = static_cast<int>(2 * pose.size) + 8;
+  const openvdb::CoordBBox box(openvdb::Coord(-(reach / 8 + 1)), openvdb::Coord(reach / 8 + 1));
+  for (auto it = box.beginXYZ(); it; ++it) {
+    const openvdb::Coord origin((*it).x() * 8, (*it).y() * 8, (*it).z() * 8);
+    constexpr double kToCorner = 6.1;  // from the middle of a leaf's points
+    if (std::abs(value(origin.asVec3d() + openvdb::Vec3d(3.5))) > kHalfWidth + kToCorner) continue;
+    auto* leaf = grid->tree().touchLeaf(origin);
+    for (openvdb::Index i = 0; i < 512; ++i) {
+      const double d = value(leaf->offsetToGlobalCoord(i).asVec3d());
+      if (std::abs(d) < kHalfWidth) {
+        leaf->setValueOn(i, static_cast<float>(d));
+      } else {
+        leaf->setValueOff(i, d < 0 ? -kHalfWidth : kHalfWidth);
+      }
+    }
+  }
+  openvdb::tools::signedFloodFill(grid->tree());
+  return grid;
+}
+
+openvdb::FloatGrid::Ptr rasterise(const Shape& shape, const Pose& pose) {
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  for (const Vec3d& p : shape.mesh.points) {
+    const Vec3d w = pose.toWorld(p);
+    points.emplace_back(w.x, w.y, w.z);
+  }
+  for (const auto& t : shape.mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  return openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*openvdb::math::Transform::createLinearTransform(1.0),
+                                                            points, triangles, kHalfWidth);
+}
+
+}  // namespace
+
+const std::vector<std::string>& gridInputs() {
+  static const std::vector<std::string> all{"exact", "half", "iso", "mesh"};
+  return all;
+}
+
+GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise, unsigned seed) {
+  const double iso = input == "iso" ? 1 : 0;
+  GridInput out{input == "mesh" ? rasterise(shape, pose) : sampleDistance(shape, pose, iso), iso};
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0, noise);
+  for (auto leaf = out.grid->tree().beginLeaf(); leaf; ++leaf)
+    for (auto it = leaf->beginValueOn(); it; ++it) {
+      auto v = *it;
+      if (noise > 0) v += static_cast<float>(normal(random));
+      if (input == "half") v = static_cast<float>(openvdb::math::half(v));
+      it.setValue(v);
+    }
+  return out;
+}
+
+}  // namespace pdc::eval

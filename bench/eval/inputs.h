@@ -1,0 +1,26 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <string>
+#include <vector>
+
+#include "eval/shapes.h"
+
+namespace pdc::eval {
+
+/// Kinds of sampled input: "exact" distances; "half", the same rounded to half precision; "iso", distances plus one
+/// voxel, to be contoured at 1; "mesh", openvdb::tools::meshToVolume of a fine mesh.
+[[nodiscard]] const std::vector<std::string>& gridInputs();
+
+struct GridInput {
+  openvdb::FloatGrid::Ptr grid;
+  double iso;
+};
+
+/// A level set of half width 3 on the lattice of integer points. \param noise standard deviation of what is added to
+/// every active value, in voxels; \param seed of it.
+[[nodiscard]] GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise,
+                                 unsigned seed);
+
+}  // namespace pdc::eval

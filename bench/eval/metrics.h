@@ -1,0 +1,22 @@
+#pragma once
+
+#include "eval/shapes.h"
+#include "pdc/mesh/mesh.h"
+
+namespace pdc::eval {
+
+/// How far a mesh is from the solid it stands for. Lengths in voxels.
+struct Figures {
+  double vertexRms = 0, vertexMax = 0;  ///< Distance of its vertices from the surface.
+  double edgeRms = 0, edgeMax = 0;      ///< Distance of points of the true edges from its triangles, at most kFar.
+  double cornerMax = 0;                 ///< The same of true corners.
+  double normalP99 = 0;  ///< Degrees between triangle and surface normals, 99th percentile by count, farther than
+                         ///< kAway from every crease.
+  double edgeF1 = 0;     ///< Harmonic mean of the shares of its sharp edges (more than kSharp degrees) that lie within
+                         ///< kNear of a true crease, and of points of the measured edges within kNear of a sharp edge.
+  static constexpr double kFar = 2, kAway = 2, kSharp = 20, kNear = 0.1;
+};
+
+[[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose);
+
+}  // namespace pdc::eval

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pdc/math/vec3.h"
+
+namespace pdc {
+
+/// A piece of surface in one cell of a block, whose vertex is to be placed.
+struct SurfacePatch {
+  std::uint16_t cell;   ///< 64x + 8y + z.
+  std::uint16_t edges;  ///< The sign-changing edges around it; the edge along axis a from (u, v) on the next two axes
+                        ///< is bit 4a + u + 2v.
+};
+
+/// What a source knows of some patches of a block beyond their crossings: planes that take the place of the crossings'
+/// own where those cannot be trusted, as beside a crease.
+struct FeaturePlanes {
+  /// A plane in lattice units from the block's origin: |row · (x − point)| is the distance from it in voxels, measured
+  /// in world space, times the square root of the plane's weight.
+  struct Plane {
+    Vec3f point, row;
+  };
+  /// The planes of one patch.
+  struct Patch {
+    std::uint32_t patch;  ///< Position in the list of patches.
+    std::uint32_t first, count;
+    float sigmaNormal;  ///< Standard deviation of each component of the planes' unit normals.
+  };
+
+  std::vector<Patch> patches;  ///< By ascending patch, each with at least one plane.
+  std::vector<Plane> planes;
+
+  [[nodiscard]] std::span<const Plane> of(const Patch& p) const { return {planes.data() + p.first, p.count}; }
+  void clear() {
+    patches.clear();
+    planes.clear();
+  }
+};
+
+}  // namespace pdc

@@ -1,0 +1,54 @@
+#include "sample/distance_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace pdc::detail {
+namespace {
+
+constexpr std::size_t kLeaves = 64;
+/// Fewer values than these are no sample.
+constexpr std::size_t kLeast = 32;
+/// First quartile of the size of a number that is distributed normally, with deviation 1.
+constexpr double kQuartile = 0.3186;
+/// How far from the surface values count, in voxels.
+constexpr float kNear = 2;
+
+/// \returns the value that a share of them is below, or infinity if there are too few.
+double quantile(std::vector<float>& values, double share) {
+  if (values.size() < kLeast) return std::numeric_limits<double>::infinity();
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
+  const Mat3d Kt = K.transposed();
+  const auto window = std::make_unique<DistanceWindow>();
+  std::vector<float> slopes, thirds;
+  for (const Coord& block : sampler.someLeaves(kLeaves)) {
+    sampler.readWindow(block, static_cast<float>(1 / voxelSize), *window);
+    for (int i = 0; i < kBlockSize * kBlockSize * kBlockSize; ++i) {
+      const float* p = &window->value[DistanceWindow::index(i >> 6, i >> 3 & 7, i & 7)];
+      if (!(std::abs(*p) < kNear)) continue;
+      Vec3d g;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int s = DistanceWindow::kStep[axis];
+        g[axis] = 0.5 * (double{p[s]} - p[-s]);
+        const float third = std::abs(p[2 * s] - 3 * p[s] + 3 * p[0] - p[-s]);
+        if (third >= 0) thirds.push_back(third);
+      }
+      const double error = std::abs(length(Kt * g) - 1);
+      if (error >= 0) slopes.push_back(static_cast<float>(error));
+    }
+  }
+  const double third = quantile(thirds, 0.25);
+  return {quantile(slopes, 0.5), std::isfinite(third) ? third / (kQuartile * std::sqrt(20.0)) : 0};
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+
+#include "pdc/math/mat3.h"
+#include "sample/voxel_planes.h"
+
+namespace pdc::detail {
+
+/// One smooth side of the surface near a cell, to second order: {y : n·d + ½ dᵀHd = offset} with d = y − center.
+struct SurfaceSide {
+  Vec3d center;  ///< Mean of the points it was made of.
+  Vec3d normal;  ///< At the centre; of unit length.
+  Mat3d bend;    ///< How the normal changes along the surface, H; symmetric.
+  double offset;
+  double weight;  ///< Of all samples together.
+
+  [[nodiscard]] Vec3d gradient(const Vec3d& y) const { return normal + bend * (y - center); }
+  /// Distance of y from it, by and large.
+  [[nodiscard]] double value(const Vec3d& y) const {
+    const Vec3d d = y - center;
+    return dot(normal, d) + 0.5 * dot(d, bend * d) - offset;
+  }
+};
+
+/// The sides that meet near a cell.
+struct SurfaceSides {
+  static constexpr int kMax = 4;
+  std::array<SurfaceSide, kMax> side;
+  int count = 0;
+
+  void drop(int i) { side[i] = side[--count]; }
+};
+
+/// Sorts samples into sides by their normals: the heaviest first, then what is left of them.
+/// \param foot in world space, in voxels, as the sides are. \param normalNoise expected of each component of a normal.
+[[nodiscard]] SurfaceSides findSides(std::span<const SurfaceSample> samples, double normalNoise);
+
+/// The point that is nearest to all sides, by their weights (at most 1 each), and, as far as they leave it open, to
+/// `start`. \param sigma as σn of their normals.
+[[nodiscard]] Vec3d meetingPoint(const SurfaceSides& sides, const Vec3d& start, double sigma);
+
+}  // namespace pdc::detail

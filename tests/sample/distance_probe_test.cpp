@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/LevelSetUtil.h>
+
+#include <cmath>
+#include <random>
+
+#include "pdc/error.h"
+#include "pdc/sample/grid_source.h"
+
+namespace pdc {
+namespace {
+
+using openvdb::FloatGrid;
+
+class DistanceProbeTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { openvdb::initialize(); }
+
+  static FloatGrid::Ptr sphere(double noise = 0, double scale = 1) {
+    auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(20, openvdb::Vec3f(0.3F, -0.2F, 0.1F), 1, 3);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal(0, noise);
+    for (auto it = grid->beginValueOn(); it; ++it)
+      it.setValue(static_cast<float>(scale * (double{*it} + (noise > 0 ? normal(random) : 0.0))));
+    return grid;
+  }
+};
+
+TEST_F(DistanceProbeTest, LevelSetsAreDistances) {
+  EXPECT_TRUE(GridSource(sphere()).usesDistances());
+  EXPECT_LT(GridSource(sphere()).valueNoise(), 0.002);
+}
+
+TEST_F(DistanceProbeTest, NoiseIsMeasured) {
+  for (const double noise : {0.01, 0.05, 0.1}) {
+    const GridSource source(sphere(noise));
+    EXPECT_TRUE(source.usesDistances());
+    EXPECT_NEAR(source.valueNoise(), noise, 0.1 * noise);
+  }
+}
+
+TEST_F(DistanceProbeTest, TheVoxelSizeDoesNotMatter) {
+  const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(2, openvdb::Vec3f(0), 0.1F, 3);
+  EXPECT_TRUE(GridSource(grid).usesDistances());
+  EXPECT_LT(GridSource(grid).valueNoise(), 0.002);
+}
+
+TEST_F(DistanceProbeTest, ValuesOfOtherSlopesAreNone) {
+  const auto steep = sphere(0, 1.3);
+  EXPECT_FALSE(GridSource(steep).usesDistances());
+  EXPECT_TRUE(GridSource(steep, {.hermite = HermiteMode::kDistance}).usesDistances());
+}
+
+TEST_F(DistanceProbeTest, GradientMeansGradient) {
+  EXPECT_FALSE(GridSource(sphere(), {.hermite = HermiteMode::kGradient}).usesDistances());
+}
+
+TEST_F(DistanceProbeTest, FogVolumesAreNone) {
+  const auto fog = sphere();
+  openvdb::tools::sdfToFogVolume(*fog);
+  ASSERT_EQ(fog->getGridClass(), openvdb::GRID_FOG_VOLUME);
+  EXPECT_FALSE(GridSource(fog).usesDistances());
+}
+
+TEST_F(DistanceProbeTest, WholeNumbersAreNone) {
+  const auto grid = openvdb::Int32Grid::create(10);
+  for (int x = -8; x <= 8; ++x)
+    for (int y = -8; y <= 8; ++y)
+      for (int z = -8; z <= 8; ++z)
+        grid->tree().setValue({x, y, z}, static_cast<int>(std::lround(std::sqrt(x * x + y * y + z * z))) - 5);
+  EXPECT_FALSE(GridSource(grid).usesDistances());
+}
+
+/// Densities as of a scanner: a soft step at the surface, with noise, about a background of air.
+TEST_F(DistanceProbeTest, DensitiesAreNone) {
+  for (const float background : {-1000.0F, 1000.0F}) {
+    const auto grid = FloatGrid::create(background);
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal(0, 30);
+    for (int x = -12; x <= 12; ++x)
+      for (int y = -12; y <= 12; ++y)
+        for (int z = -12; z <= 12; ++z) {
+          const double d = std::sqrt(x * x + y * y + z * z) - 8;
+          grid->tree().setValue({x, y, z}, static_cast<float>(background * std::tanh(d / 1.5) + normal(random)));
+        }
+    EXPECT_FALSE(GridSource(grid).usesDistances()) << background;
+  }
+}
+
+TEST_F(DistanceProbeTest, FrustaAreRefused) {
+  const auto grid = sphere();
+  grid->setTransform(openvdb::math::Transform::createFrustumTransform(
+      openvdb::BBoxd(openvdb::Vec3d(-30), openvdb::Vec3d(30)), 0.5, 1.0, 1.0));
+  EXPECT_FALSE(GridSource(grid).usesDistances());
+  EXPECT_THROW(GridSource(grid, {.hermite = HermiteMode::kDistance}), Error);
+}
+
+}  // namespace
+}  // namespace pdc
