@@ -260,8 +260,19 @@ struct BlockVertexSolver::Scratch {
       if (planeError(safe) <= planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
-    block.out.doubts->vertices.push_back({vertex, block.index, patch.cell, free, vecCast<float>(safe)});
+    block.out.doubts->vertices.push_back(
+        {vertex, block.index, patch.cell, free, vecCast<float>(safe), creaseNormals(block)});
     return free;
+  }
+
+  [[nodiscard]] std::array<Vec3f, 4> creaseNormals(const BlockState& block) const {
+    std::array<Vec3f, 4> normals{};
+    const Mat3d toWorld = inverse(block.metric.M).transposed();
+    for (std::size_t i = 0; i < std::min(normals.size(), samples.features.size()); ++i) {
+      const Vec3d n = toWorld * vecCast<double>(samples.features[i].row);
+      normals[i] = vecCast<float>(n * (1 / length(n)));
+    }
+    return normals;
   }
 
   /// Of the samples, away from where two patches may touch: crossings at the very ends of their edges.

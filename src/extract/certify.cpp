@@ -26,7 +26,7 @@ class Certifier {
       : mMap(source.map()),
         mRings(blocks, topology),
         mFans(source, blocks, mRings, mesh),
-        mFaces(mMap, mRings, mFans, mesh),
+        mFaces(mMap, mRings, mFans, doubts.vertices, mesh),
         mLoose(doubts.vertices),
         mDrawn(doubts.vertices.size()),
         mMesh(mesh) {}
@@ -80,10 +80,9 @@ class Certifier {
 
   /// Number of the vertex among the loose ones if it may still be moved, or -1.
   [[nodiscard]] std::ptrdiff_t movable(std::uint32_t vertex) const {
-    const auto it = std::lower_bound(mLoose.begin(), mLoose.end(), vertex,
-                                     [](const LooseVertex& l, std::uint32_t v) { return l.vertex < v; });
-    if (it == mLoose.end() || it->vertex != vertex) return -1;
-    const std::ptrdiff_t i = it - mLoose.begin();
+    const LooseVertex* loose = findLoose(mLoose, vertex);
+    if (loose == nullptr) return -1;
+    const std::ptrdiff_t i = loose - mLoose.data();
     return mDrawn[i] < kDrawnIn ? i : -1;
   }
 

@@ -28,14 +28,23 @@ bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
   return crossed(0, 1, 2) && crossed(0, 2, 3);
 }
 
-bool FaceTests::facesForward(const EdgeRef& e, const TriangleCorners& t) const {
+bool FaceTests::facesForward(const EdgeRef& e, const Triangle& vertices, const TriangleCorners& t) const {
   const auto [from, to] = insideToOutside(mRings, e);
   const Vec3d d = mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
   const Vec3d p = vecCast<double>(t[0]);
-  const Vec3d u = vecCast<double>(t[1]) - p, v = vecCast<double>(t[2]) - p;
+  const Vec3d u = vecCast<double>(t[1]) - p, v = vecCast<double>(t[2]) - p, n = cross(u, v);
   // Differences of floats are exact or nearly so; what is left is far below this share.
   constexpr double kRounding = 1e-14;
-  return dot(cross(u, v), d) > kRounding * length(u) * length(v) * length(d);
+  const double doubt = kRounding * length(u) * length(v);
+  if (dot(n, d) > doubt * length(d)) return true;
+  if (!(length(n) > doubt)) return false;
+  // The cosine from which a triangle belongs to a plane.
+  constexpr double kAlike = 0.5;
+  for (const std::uint32_t vertex : vertices)
+    if (const LooseVertex* loose = findLoose(mLoose, vertex))
+      for (const Vec3f& normal : loose->creaseNormals)
+        if (dot(n, vecCast<double>(normal)) > kAlike * length(n)) return true;
+  return false;
 }
 
 void FaceTests::triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const {

@@ -11,13 +11,16 @@ namespace pdc::detail {
 /// What is asked of single faces, decided exactly on the mesh's coordinates.
 class FaceTests {
  public:
-  FaceTests(const LatticeMap& map, const QuadRings& rings, const Fans& fans, const Mesh& mesh)
-      : mMap(map), mRings(rings), mFans(fans), mMesh(mesh) {}
+  FaceTests(const LatticeMap& map, const QuadRings& rings, const Fans& fans, const std::vector<LooseVertex>& loose,
+            const Mesh& mesh)
+      : mMap(map), mRings(rings), mFans(fans), mLoose(loose), mMesh(mesh) {}
 
   /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
   [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
-  /// Whether the triangle has an area and looks the way the surface passes the lattice edge.
-  [[nodiscard]] bool facesForward(const EdgeRef& e, const TriangleCorners& t) const;
+  /// Whether the triangle has an area and looks the way the surface passes the lattice edge; or, where a corner lies on
+  /// a crease, the way one of the planes looks that meet there: beside a sharp crease a triangle of one side may stand
+  /// for a lattice edge that passes the other.
+  [[nodiscard]] bool facesForward(const EdgeRef& e, const Triangle& vertices, const TriangleCorners& t) const;
 
   template <std::size_t n>
   [[nodiscard]] std::array<Vec3f, n> corners(const std::array<std::uint32_t, n>& vertices) const {
@@ -37,6 +40,7 @@ class FaceTests {
   const LatticeMap& mMap;
   const QuadRings& mRings;
   const Fans& mFans;
+  const std::vector<LooseVertex>& mLoose;
   const Mesh& mMesh;
 };
 

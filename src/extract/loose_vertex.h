@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +17,17 @@ struct LooseVertex {
   Vec3f free;          ///< Where its quadric wants it, in lattice units from the centre of the cell.
   /// Where it is safe: in its cell, and in a strict cell among its own patch's crossings.
   Vec3f safe;
+  /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where the
+  /// vertex was placed without such.
+  std::array<Vec3f, 4> creaseNormals{};
 };
+
+/// The loose vertex of that number, or null. \pre the list is sorted by vertex
+inline const LooseVertex* findLoose(const std::vector<LooseVertex>& loose, std::uint64_t vertex) {
+  const auto it = std::lower_bound(loose.begin(), loose.end(), vertex,
+                                   [](const LooseVertex& l, std::uint64_t v) { return l.vertex < v; });
+  return it != loose.end() && it->vertex == vertex ? &*it : nullptr;
+}
 
 /// A sign-changing lattice edge of a block, whose quad it stands for.
 struct EdgeRef {

@@ -209,7 +209,7 @@ inline void NearFaces::search(const EdgeRef& e, Scratch& own, const std::vector<
   }
   Box box(own.corners[0]);
   for (std::size_t i = 0; i < own.own.size(); ++i) {
-    if (!mTests.facesForward(e, own.corners[i])) return out.push_back({e, e, own.own[i], own.own[i]});
+    if (!mTests.facesForward(e, own.own[i], own.corners[i])) return out.push_back({e, e, own.own[i], own.own[i]});
     for (std::size_t j = 0; j < i; ++j)
       if (trianglesIntersect(own.corners[i], own.own[i], own.corners[j], own.own[j]))
         out.push_back({e, e, own.own[j], own.own[i]});

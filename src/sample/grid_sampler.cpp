@@ -123,13 +123,8 @@ class TypedGridSampler final : public GridSampler {
   }
 
   [[nodiscard]] std::vector<Coord> someLeaves(std::size_t most) const override {
-    std::vector<const LeafT*> leaves;
-    mGrid->tree().getNodes(leaves);
-    std::vector<Coord> some(std::min(most, leaves.size()));
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      const openvdb::Coord o = leaves[i * leaves.size() / some.size()]->origin();
-      some[i] = blockOf({o.x(), o.y(), o.z()});
-    }
+    std::vector<Coord> some(std::min(most, mTable.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) some[i] = mTable.coord(i * mTable.size() / some.size());
     return some;
   }
 
@@ -137,12 +132,11 @@ class TypedGridSampler final : public GridSampler {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     constexpr std::array<int, 3> kFirst{-DistanceWindow::kReach, 0, kBlockSize},
         kEnd{0, kBlockSize, kBlockPoints + DistanceWindow::kReach};
-    Accessor accessor(mGrid->tree());
+    const typename Table::Around around(mTable, block);
     Rows rows;
     for (int part = 0; part < 27; ++part) {
       const int px = part / 9, py = part / 3 % 3, pz = part % 3;
-      rows.find(accessor, openvdb::Coord((block[0] + px - 1) * kBlockSize, (block[1] + py - 1) * kBlockSize,
-                                         (block[2] + pz - 1) * kBlockSize));
+      rows.find(mTable, around(px - 1, py - 1, pz - 1));
       for (int x = kFirst[px]; x < kEnd[px]; ++x)
         for (int y = kFirst[py]; y < kEnd[py]; ++y) {
           std::array<float, kBlockSize> row;

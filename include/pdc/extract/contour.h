@@ -50,11 +50,12 @@ struct ContourReport {
 /// the same bytes for any number of threads.
 ///
 /// With kCertified and kCell and an affine map also: the triangles, quads being split as Mesh says, do not intersect
-/// each other in the single-precision coordinates given, and none faces backwards along its lattice edge; in the rare
-/// places where four vertices allow no such quad, triangles about an additional vertex on the lattice edge take its
-/// place. `uncertified` is 0 then. Not guaranteed for kFree, for maps that are not affine, where an open source's
-/// surface ends within a cell in several pieces, and beyond about 2^20 voxels from the origin, where single precision
-/// cannot tell a cell's walls apart; there `uncertified` counts what is left.
+/// each other in the single-precision coordinates given, and none faces backwards: along its lattice edge or, beside a
+/// crease, along all planes that meet there. In the rare places where four vertices allow no such quad, triangles about
+/// an additional vertex on the lattice edge take its place. `uncertified` is 0 then. Not guaranteed for kFree, for maps
+/// that are not affine, where an open source's surface ends within a cell in several pieces, and beyond about 2^20
+/// voxels from the origin, where single precision cannot tell a cell's walls apart; there `uncertified` counts what is
+/// left.
 ///
 /// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, or for a source whose blocks
 /// are not sorted; Error if the mesh would have more than 2^32 vertices, before any is made; Cancelled; whatever the
