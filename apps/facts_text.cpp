@@ -15,7 +15,10 @@ std::string text(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string joined;
-  for (const Json& part : value) joined += (joined.empty() ? "" : " ") + text(part);
+  for (const Json& part : value) {
+    if (!joined.empty()) joined += ' ';
+    joined += text(part);
+  }
   return joined;
 }
 

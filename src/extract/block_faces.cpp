@@ -1,8 +1,6 @@
 #include "extract/block_faces.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "extract/cell_rounding.h"
@@ -81,13 +79,6 @@ bool passes(const std::array<const VertexError*, 4>& error, bool first, float do
                : crosses(p[1], p[2], p[3]) && crosses(p[1], p[3], p[0]);
 }
 
-/// Whether a vertex lies outside its cell: then its quads are looked at more closely anyway, and keep their diagonals.
-bool leavesCell(const std::array<const VertexError*, 4>& error) {
-  for (const VertexError* e : error)
-    if (std::max({std::abs(e->x.x), std::abs(e->x.y), std::abs(e->x.z)}) > 0.5F) return true;
-  return false;
-}
-
 /// Of triple products of three places not farther than a cell from a lattice point: what single precision does to
 /// their sums, and what rounding the places in world space does.
 float volumeDoubt(const LatticeMap& map, const Coord& block) {
@@ -145,7 +136,7 @@ void BlockFaceWriter::runAxis(std::size_t block, const CellVertices& vertices, c
       std::array<const VertexError*, 4> error;
       for (int k = 0; k < 4; ++k) error[k] = &errors[ring[k]];
       bool first = splitsAtFirst<axis>(error);
-      if (doubts != nullptr && !leavesCell(error) && !passes<axis>(error, first, doubt)) {
+      if (doubts != nullptr && !passes<axis>(error, first, doubt)) {
         if (passes<axis>(error, !first, doubt)) {
           first = !first;
           ++doubts->forcedDiagonals;
