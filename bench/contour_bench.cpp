@@ -62,11 +62,12 @@ tbb::global_control limitThreads(const benchmark::State& state) {
   return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
 }
 
-void pdcContour(benchmark::State& state, const FloatGrid::Ptr& grid, pdc::Placement placement) {
+void pdcContour(benchmark::State& state, const FloatGrid::Ptr& grid, pdc::Placement placement,
+                pdc::HermiteMode hermite) {
   const auto threads = limitThreads(state);
   std::size_t vertices = 0;
   for (auto _ : state) {
-    const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid), {.placement = placement});
+    const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid, {.hermite = hermite}), {.placement = placement});
     vertices = mesh.positions.size();
     benchmark::DoNotOptimize(mesh.quads.data());
   }
@@ -117,10 +118,17 @@ void add(const std::string& what, const Input& input, const std::function<void(b
 
 void addAll(const Input& input) {
   const FloatGrid::Ptr& grid = input.grid;
-  for (const auto& [name, placement] : {std::pair{"free", pdc::Placement::kFree},
-                                        {"cell", pdc::Placement::kCell},
-                                        {"certified", pdc::Placement::kCertified}})
-    add("pdc_" + std::string(name), input, [grid, p = placement](benchmark::State& s) { pdcContour(s, grid, p); });
+  struct Variant {
+    const char* name;
+    pdc::Placement placement;
+    pdc::HermiteMode hermite;
+  };
+  using pdc::HermiteMode, pdc::Placement;
+  for (const Variant& v : {Variant{"pdc_free", Placement::kFree, HermiteMode::kGradient},
+                           Variant{"pdc_cell", Placement::kCell, HermiteMode::kGradient},
+                           Variant{"pdc_certified", Placement::kCertified, HermiteMode::kGradient},
+                           Variant{"pdc_default", Placement::kCertified, HermiteMode::kAuto}})
+    add(v.name, input, [grid, v](benchmark::State& s) { pdcContour(s, grid, v.placement, v.hermite); });
   add("volume_to_mesh", input, [grid](benchmark::State& s) { volumeToMesh(s, grid); });
   add("roofline", input, [grid](benchmark::State& s) { roofline(s, grid); });
 }
