@@ -96,42 +96,24 @@ inline void BlockFaceWriter::write(const Quad& v, bool splitsAtFirst, bool rever
   mQuads[face] = q;
 }
 
-namespace {
-
-/// As CellVertices, for any block.
-template <int axis>
-Quad ringOf(const Topology& topology, const BlockTopology& own, int x, int y, int z) {
-  Quad ring;
-  for (int k = 0; k < 4; ++k) {
-    const auto [du, dv] = kRing[k];
-    Coord c{x, y, z};
-    c[(axis + 1) % 3] -= du;
-    c[(axis + 2) % 3] -= dv;
-    const int lower = (c[0] < 0) << 2 | (c[1] < 0) << 1 | (c[2] < 0);
-    const BlockTopology& b = lower == 0 ? own : topology.blocks[own.lower[lower]];
-    ring[k] = static_cast<std::uint32_t>(b.vertexAt(c[0] & 7, c[1] & 7, c[2] & 7, ringEdge(axis, k)));
-  }
-  return ring;
-}
-
-}  // namespace
-
 template <int axis>
 void BlockFaceWriter::runAxis(std::size_t block, const CellVertices& vertices, const ErrorWindow& errors,
                               Doubts* doubts, std::uint64_t face) const {
   constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
   const BlockTopology& own = mTopology.blocks[block];
   const BlockSigns& signs = mBlocks.signs[block];
+  const QuadRings rings(mBlocks, mTopology);
   const float doubt = doubts != nullptr ? volumeDoubt(mMap, mBlocks.coords[block]) : 0.0F;
   for (int x = 0; x < kBlockSize; ++x)
     for (std::uint64_t w = own.edges[axis].word[x]; w != 0; w &= w - 1) {
       const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
+      const EdgeRef edge{static_cast<std::int32_t>(block), static_cast<std::uint16_t>(512 * axis + 64 * x + bit)};
       Quad ring;
       if (vertices.allSimple()) {
         const std::uint32_t* at = vertices.at(x, y, z);
         for (int k = 0; k < 4; ++k) ring[k] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
       } else {
-        ring = ringOf<axis>(mTopology, own, x, y, z);
+        ring = rings.vertices(edge);
       }
       std::array<const VertexError*, 4> error;
       for (int k = 0; k < 4; ++k) error[k] = &errors[ring[k]];
@@ -141,8 +123,7 @@ void BlockFaceWriter::runAxis(std::size_t block, const CellVertices& vertices, c
           first = !first;
           ++doubts->forcedDiagonals;
         } else {
-          doubts->quads.push_back(
-              {static_cast<std::int32_t>(block), static_cast<std::uint16_t>(512 * axis + 64 * x + bit)});
+          doubts->quads.push_back(edge);
         }
       }
       write(ring, first, signs.inside(x, y, z) == mMap.mirrored(), face++);

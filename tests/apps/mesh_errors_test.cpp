@@ -25,12 +25,7 @@ class MeshErrors : public ::testing::Test {
     if (arguments.size() < 2 || arguments[1].rfind("--", 0) == 0) arguments.insert(arguments.begin() + 1, mOutput);
     arguments.insert(arguments.begin(), "mesh");
     const auto before = mFolder.entries();
-    const Outcome outcome = runPdc(arguments);
-    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
-    for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    expectOneLineRefusal(runPdc(arguments), exitCode, mentions);
     EXPECT_EQ(mFolder.entries(), before);
   }
   void expectSceneRefusal(const std::string& scene, const std::vector<std::string>& mentions) {

@@ -1,6 +1,7 @@
 #include "apps/program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -96,6 +97,14 @@ Outcome runPdc(const Arguments& arguments, const RunOptions& options) {
           .out = options.standardOutput.empty() ? readFile(out) : std::string(),
           .err = options.standardError.empty() ? readFile(err) : std::string(),
           .secondsAfterSignal = passed.count()};
+}
+
+void expectOneLineRefusal(const Outcome& outcome, int exitCode, const std::vector<std::string>& mentions) {
+  EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
+  for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
 }
 
 std::string readFile(const std::filesystem::path& path) {

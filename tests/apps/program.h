@@ -42,6 +42,9 @@ struct RunOptions {
 /// Runs the built pdc with these arguments and waits for it.
 [[nodiscard]] Outcome runPdc(const Arguments& arguments, const RunOptions& options = {});
 
+/// That the program refused with this exit code and one line of its own on standard error, which holds these texts.
+void expectOneLineRefusal(const Outcome& outcome, int exitCode, const std::vector<std::string>& mentions);
+
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
 /// The small grid that comes with the project: a level set, 85 x 35 x 35 voxels.

@@ -22,12 +22,7 @@ class RenderCommand : public ::testing::Test {
   void expectRefusal(Arguments arguments, int exitCode, const std::vector<std::string>& mentions) {
     arguments.insert(arguments.begin(), "render");
     const auto before = mFolder.entries();
-    const Outcome outcome = runPdc(arguments);
-    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
-    for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    expectOneLineRefusal(runPdc(arguments), exitCode, mentions);
     EXPECT_EQ(mFolder.entries(), before);
   }
   std::string draw(Arguments options) {

@@ -28,12 +28,7 @@ class SweepCommand : public ::testing::Test {
   }
   void expectRefusal(Arguments arguments, int exitCode, const std::vector<std::string>& mentions) {
     arguments.insert(arguments.begin(), "sweep");
-    const Outcome outcome = runPdc(arguments);
-    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.rfind("pdc: ", 0), 0U) << outcome.err;
-    for (const std::string& text : mentions) EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    expectOneLineRefusal(runPdc(arguments), exitCode, mentions);
     EXPECT_FALSE(std::filesystem::exists(mOut + "/sweep.json"));
   }
 
