@@ -40,10 +40,11 @@ class CellVertices {
     for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
       const std::uint64_t word = b.cells.word[x];
       const std::uint64_t before = b.firstVertex + b.cellsBefore[x];
-      std::uint32_t* row = &mVertex[index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz)];
+      const int first =
+          index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);  // Of a cell that may lie outside.
       for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w);
-        row[kStep[1] * (bit >> 3) + (bit & 7)] =
+        mVertex[first + kStep[1] * (bit >> 3) + (bit & 7)] =
             static_cast<std::uint32_t>(before + bitCount(word & ((std::uint64_t{1} << bit) - 1)));
       }
     }

@@ -129,23 +129,25 @@ class TypedGridSampler final : public GridSampler {
   }
 
   void readWindow(const Coord& block, float scale, DistanceWindow& window) const override {
-    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-    constexpr std::array<int, 3> kFirst{-DistanceWindow::kReach, 0, kBlockSize},
-        kEnd{0, kBlockSize, kBlockPoints + DistanceWindow::kReach};
+    constexpr int kBelow = DistanceWindow::kReach, kAbove = 1 + DistanceWindow::kReach;
+    constexpr std::array<int, 3> kFirst{-kBelow, 0, kBlockSize}, kEnd{0, kBlockSize, kBlockSize + kAbove};
     const typename Table::Around around(mTable, block);
-    Rows rows;
-    for (int part = 0; part < 27; ++part) {
-      const int px = part / 9, py = part / 3 % 3, pz = part % 3;
-      rows.find(mTable, around(px - 1, py - 1, pz - 1));
-      for (int x = kFirst[px]; x < kEnd[px]; ++x)
-        for (int y = kFirst[py]; y < kEnd[py]; ++y) {
-          std::array<float, kBlockSize> row;
-          mReader.template copy<kBlockSize>(rows.at(x, y), row.data());
-          for (int z = kFirst[pz]; z < kEnd[pz]; ++z) {
-            const float v = row[z & 7];
-            window.value[DistanceWindow::index(x, y, z)] = v > mLow && v < mHigh ? v * scale : kUnknown;
+    std::array<Rows, 3> rows;
+    for (int px = 0; px < 3; ++px)
+      for (int py = 0; py < 3; ++py) {
+        for (int pz = 0; pz < 3; ++pz) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
+        for (int x = kFirst[px]; x < kEnd[px]; ++x)
+          for (int y = kFirst[py]; y < kEnd[py]; ++y) {
+            float* to = &window.value[DistanceWindow::index(x, y, -kBelow)];
+            mReader.template copy<kBelow>(rows[0].at(x, y) + (kBlockSize - kBelow), to);
+            mReader.template copy<kBlockSize>(rows[1].at(x, y), to + kBelow);
+            mReader.template copy<kAbove>(rows[2].at(x, y), to + kBelow + kBlockSize);
           }
-        }
+      }
+    const float low = mLow, high = mHigh;
+    for (float& v : window.value) {
+      const float scaled = v * scale;
+      v = (v > low) & (v < high) ? scaled : std::numeric_limits<float>::quiet_NaN();
     }
   }
 

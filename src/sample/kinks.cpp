@@ -4,29 +4,39 @@
 
 namespace pdc::detail {
 
-Kinks findKinks(const DistanceWindow& window, float tolerance, SimdLevel level) {
-  static_assert(kLanes >= Kinks::kVoxels);
-  Kinks kinks;
+void Kinks::find(int row) {
+  static_assert(kLanes >= kVoxels);
   // The last rows' lanes read beyond what they need, but not beyond the window: it has two more planes of points.
   static_assert(DistanceWindow::index(9, 9, -1) + kLanes + 2 * DistanceWindow::kStep[0] <=
                 DistanceWindow::index(11, 11, 11) + 1);
-  forEachBlock(level, Kinks::kVoxels * Kinks::kVoxels, [&](std::size_t row) {
-    const int x = static_cast<int>(row) / Kinks::kVoxels - 1, y = static_cast<int>(row) % Kinks::kVoxels - 1;
-    const float* first = &window.value[DistanceWindow::index(x, y, -1)];
-    std::array<int, kLanes> kinked;
+  const float* first = &mWindow.value[DistanceWindow::index(row / kVoxels - 1, row % kVoxels - 1, -1)];
+  const float tolerance = mTolerance;
+  forEachBlock(mLevel, 1, [&](std::size_t) {
+    std::array<std::int32_t, kLanes> kinked;
     forEachLane([&](int lane) {
-      int any = 0;
+      std::int32_t any = 0;
       for (const int step : DistanceWindow::kStep) {
         const OneSidedSlopes s(first + lane, step);
-        any |= int(std::abs(s.above - s.below) > tolerance);
+        any |= std::int32_t(std::abs(s.above - s.below) > tolerance);
       }
       kinked[lane] = any;
     });
     unsigned bits = 0;
-    for (int z = 0; z < Kinks::kVoxels; ++z) bits |= static_cast<unsigned>(kinked[z]) << z;
-    kinks.mRow[row] = static_cast<std::uint16_t>(bits);
+    for (int z = 0; z < kVoxels; ++z) bits |= static_cast<unsigned>(kinked[z]) << z;
+    mRow[row] = static_cast<std::uint16_t>(bits);
   });
-  return kinks;
+  mKnown.set(static_cast<std::size_t>(row));
+}
+
+bool Kinks::noneAbout(const Coord& cell) {
+  unsigned any = 0;
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 4; ++y) {
+      const int row = kVoxels * (cell[0] + x) + cell[1] + y;
+      if (!mKnown.test(static_cast<std::size_t>(row))) find(row);
+      any |= mRow[row];
+    }
+  return (any >> cell[2] & 15) == 0;
 }
 
 }  // namespace pdc::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstdint>
 
@@ -11,8 +12,9 @@ namespace pdc::detail {
 
 /// A second difference to correct a one-sided slope with: of the two at its ends the smaller, or the known one.
 inline float milder(float a, float b) {
-  const float known = a == a ? a : b == b ? b : 0.0F;
-  return std::abs(b) <= std::abs(a) ? b : known;
+  float mild = std::abs(a) < std::abs(b) ? a : b;
+  mild = mild == mild ? mild : a;
+  return mild == mild ? mild : 0.0F;
 }
 
 /// Slopes at a point of a window along one axis, from above and below, exact to second order where the function is
@@ -28,24 +30,27 @@ struct OneSidedSlopes {
 };
 
 /// The voxels of a block and about it, -1 to 9 on each axis, whose slopes from both sides are known and differ along
-/// some axis: a crease's bisector passes by.
+/// some axis: a crease's bisector passes by. Found a row at a time, as they are asked for.
 class Kinks {
  public:
+  /// \param window must outlive this. \param tolerance by how much slopes may differ. \param level changes no bit of
+  /// it.
+  Kinks(const DistanceWindow& window, float tolerance, SimdLevel level = bestSimdLevel())
+      : mWindow(window), mTolerance(tolerance), mLevel(level) {}
+
   /// True if there are none in the 4×4×4 voxels about a cell.
-  [[nodiscard]] bool noneAbout(const Coord& cell) const {
-    unsigned any = 0;
-    for (int x = 0; x < 4; ++x)
-      for (int y = 0; y < 4; ++y) any |= mRow[kVoxels * (cell[0] + x) + cell[1] + y];
-    return (any >> cell[2] & 15) == 0;
-  }
+  [[nodiscard]] bool noneAbout(const Coord& cell);
 
  private:
   static constexpr int kVoxels = kBlockPoints + 2;
-  friend Kinks findKinks(const DistanceWindow& window, float tolerance, SimdLevel level);
+
+  void find(int row);
+
+  const DistanceWindow& mWindow;
+  float mTolerance;
+  SimdLevel mLevel;
+  std::bitset<kVoxels * kVoxels> mKnown;
   std::array<std::uint16_t, kVoxels * kVoxels> mRow;  ///< By 11 (x + 1) + y + 1; bit z + 1.
 };
-
-/// \param tolerance by how much slopes may differ. \param level changes no bit of it.
-[[nodiscard]] Kinks findKinks(const DistanceWindow& window, float tolerance, SimdLevel level = bestSimdLevel());
 
 }  // namespace pdc::detail

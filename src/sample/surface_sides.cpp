@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/lane_loops.h"
 #include "pdc/math/solvers.h"
 
 namespace pdc::detail {
@@ -15,33 +16,131 @@ constexpr float kLeastSeed = 0.02F;
 /// Curvatures that are common, per voxel: noise in the normals that would look larger is smoothed away.
 constexpr double kUsualBend = 0.1;
 
-SurfaceSide fitSide(std::span<const SurfaceSample> samples, std::span<const int> members, double normalNoise) {
-  SurfaceSide side{{}, {}, {}, 0, 0};
-  double trust = 0;
-  for (const int i : members) {
-    const SurfaceSample& s = samples[i];
-    side.weight += s.weight;
-    trust += s.trust;
-    side.center += vecCast<double>(s.foot) * double(s.trust);
-    side.normal += vecCast<double>(s.normal) * double(s.trust);
+/// Sums over the samples of a side: of their weights, and, weighed by their trust, of ones, normals n, feet f, the six
+/// products f fᵀ and the nine n fᵀ.
+struct Moments {
+  enum { kWeight, kTrust, kNormal, kFoot = kNormal + 3, kFootFoot = kFoot + 3, kNormalFoot = kFootFoot + 6 };
+  static constexpr int kCount = kNormalFoot + 9;
+  alignas(64) std::array<std::array<float, kLanes>, kCount> lanes{};
+  std::array<double, kCount> sum;
+
+  [[nodiscard]] Vec3d vector(int first) const { return {sum[first], sum[first + 1], sum[first + 2]}; }
+};
+
+/// The sum of all lanes, pairwise, so that the order is the same on every processor.
+float sumLanes(const std::array<float, kLanes>& lanes) {
+  float eight[8], four[4];
+  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
+  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
+/// The most trusted sample that may found a side; -1 if there is none.
+int findSeed(const SurfaceSamples& samples) {
+  alignas(64) std::array<float, kLanes> most{};
+  alignas(64) std::array<std::int32_t, kLanes> at{};
+  const float *weight = samples.column[SurfaceSamples::kWeight].data(),
+              *trust = samples.column[SurfaceSamples::kTrust].data();
+  for (int block = 0; block < samples.blocks(); ++block)
+    forEachLane([&](int lane) {
+      const int i = block * kLanes + lane;
+      const float t = weight[i] > kLeastSeed ? trust[i] : 0.0F;
+      at[lane] = t > most[lane] ? i : at[lane];
+      most[lane] = t > most[lane] ? t : most[lane];
+    });
+  int best = 0;
+  for (int lane = 1; lane < kLanes; ++lane)
+    if (most[lane] > most[best] || (most[lane] == most[best] && at[lane] < at[best])) best = lane;
+  return most[best] > 0 ? at[best] : -1;
+}
+
+/// The samples' columns from a lane on.
+struct LanePointers {
+  LanePointers(SurfaceSamples& samples, int block) {
+    for (int c = 0; c < SurfaceSamples::kColumns; ++c) column[c] = &samples.column[c][block * kLanes];
   }
-  side.center *= 1 / trust;
-  const Vec3d mean = side.normal * (1 / trust);
-  side.normal *= 1 / length(side.normal);
+  [[nodiscard]] Vec3f normal(int lane) const { return {column[0][lane], column[1][lane], column[2][lane]}; }
+  std::array<float*, SurfaceSamples::kColumns> column;
+};
+
+/// The direction of the trusted sum of the normals that are like `mean`; `mean` itself if there are none.
+Vec3f meanNormal(SurfaceSamples& samples, const Vec3f& mean) {
+  alignas(64) std::array<std::array<float, kLanes>, 3> sum{};
+  for (int block = 0; block < samples.blocks(); ++block) {
+    const LanePointers p(samples, block);
+    forEachLane([&](int lane) {
+      const Vec3f n = p.normal(lane);
+      const float t = dot(n, mean) > kSameSide ? p.column[SurfaceSamples::kTrust][lane] : 0.0F;
+      sum[0][lane] += n.x * t;
+      sum[1][lane] += n.y * t;
+      sum[2][lane] += n.z * t;
+    });
+  }
+  const Vec3f s{sumLanes(sum[0]), sumLanes(sum[1]), sumLanes(sum[2])};
+  const float l = length(s);
+  return l > 0 ? s * (1 / l) : mean;
+}
+
+/// Sums over the samples whose normals are like `mean`, and takes their weight away.
+void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments) {
+  auto& sum = moments.lanes;
+  for (int block = 0; block < samples.blocks(); ++block) {
+    const LanePointers p(samples, block);
+    float *weight = p.column[SurfaceSamples::kWeight], *trust = p.column[SurfaceSamples::kTrust];
+    const float *fx = p.column[SurfaceSamples::kFootX], *fy = p.column[SurfaceSamples::kFootY],
+                *fz = p.column[SurfaceSamples::kFootZ];
+    forEachLane([&](int lane) {
+      const Vec3f n = p.normal(lane);
+      const bool like = dot(n, mean) > kSameSide;
+      const float w = like ? weight[lane] : 0.0F, t = like ? trust[lane] : 0.0F;
+      weight[lane] = like ? 0.0F : weight[lane];
+      trust[lane] = like ? 0.0F : trust[lane];
+      const Vec3f f{fx[lane], fy[lane], fz[lane]}, tn = n * t, tf = f * t;
+      sum[Moments::kWeight][lane] += w;
+      sum[Moments::kTrust][lane] += t;
+      sum[Moments::kNormal][lane] += tn.x;
+      sum[Moments::kNormal + 1][lane] += tn.y;
+      sum[Moments::kNormal + 2][lane] += tn.z;
+      sum[Moments::kFoot][lane] += tf.x;
+      sum[Moments::kFoot + 1][lane] += tf.y;
+      sum[Moments::kFoot + 2][lane] += tf.z;
+      sum[Moments::kFootFoot][lane] += tf.x * f.x;
+      sum[Moments::kFootFoot + 1][lane] += tf.x * f.y;
+      sum[Moments::kFootFoot + 2][lane] += tf.x * f.z;
+      sum[Moments::kFootFoot + 3][lane] += tf.y * f.y;
+      sum[Moments::kFootFoot + 4][lane] += tf.y * f.z;
+      sum[Moments::kFootFoot + 5][lane] += tf.z * f.z;
+      sum[Moments::kNormalFoot][lane] += tn.x * f.x;
+      sum[Moments::kNormalFoot + 1][lane] += tn.x * f.y;
+      sum[Moments::kNormalFoot + 2][lane] += tn.x * f.z;
+      sum[Moments::kNormalFoot + 3][lane] += tn.y * f.x;
+      sum[Moments::kNormalFoot + 4][lane] += tn.y * f.y;
+      sum[Moments::kNormalFoot + 5][lane] += tn.y * f.z;
+      sum[Moments::kNormalFoot + 6][lane] += tn.z * f.x;
+      sum[Moments::kNormalFoot + 7][lane] += tn.z * f.y;
+      sum[Moments::kNormalFoot + 8][lane] += tn.z * f.z;
+    });
+  }
+  for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k])};
+}
+
+SurfaceSide fitSide(const Moments& moments, double normalNoise) {
+  const auto& sum = moments.sum;
+  const double trust = sum[Moments::kTrust];
+  SurfaceSide side{};
+  side.weight = sum[Moments::kWeight];
+  side.center = moments.vector(Moments::kFoot) * (1 / trust);
+  const Vec3d mean = moments.vector(Moments::kNormal) * (1 / trust);
+  side.normal = mean * (1 / length(mean));
 
   // Least squares for n(p) − mean = H(p − center), with a ridge.
-  SymMat3<double> spread = SymMat3<double>::zero();
-  Mat3d turn{{Vec3d{}, Vec3d{}, Vec3d{}}};
-  for (const int i : members) {
-    const SurfaceSample& s = samples[i];
-    const Vec3d d = vecCast<double>(s.foot) - side.center, dn = (vecCast<double>(s.normal) - mean) * double(s.trust);
-    spread += outer(d) * double(s.trust);
-    for (int k = 0; k < 3; ++k) turn.row[k] += d * dn[k];
-  }
+  const double* ff = &sum[Moments::kFootFoot];
+  const SymMat3<double> spread = SymMat3<double>{ff[0], ff[1], ff[2], ff[3], ff[4], ff[5]} - outer(side.center) * trust;
   const double noise = normalNoise / kUsualBend;
   const SymMat3<double> damped = spread.plusDiagonal((0.01 + noise * noise) * trust);
   for (int k = 0; k < 3; ++k) {
-    const auto row = solveLdlt(damped, turn.row[k]);
+    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - side.center * (trust * mean[k]);
+    const auto row = solveLdlt(damped, turn);
     side.bend.row[k] = row ? *row : Vec3d{};
   }
   // Only the tangential, symmetric part can be curvature.
@@ -51,55 +150,41 @@ SurfaceSide fitSide(std::span<const SurfaceSample> samples, std::span<const int>
   const Mat3d t = side.bend.transposed();
   for (int k = 0; k < 3; ++k) side.bend.row[k] = (side.bend.row[k] + t.row[k]) * 0.5;
   side.bend = P * side.bend * P;
-  double bent = 0;
-  for (const int i : members) {
-    const Vec3d d = vecCast<double>(samples[i].foot) - side.center;
-    bent += 0.5 * dot(d, side.bend * d) * double(samples[i].trust);
-  }
-  side.offset = bent / trust;
+  // The mean of ½ dᵀHd is half the trace of H times the spread.
+  const Mat3d& H = side.bend;
+  const double bent = H.row[0].x * spread.xx + H.row[1].y * spread.yy + H.row[2].z * spread.zz +
+                      2 * (H.row[0].y * spread.xy + H.row[0].z * spread.xz + H.row[1].z * spread.yz);
+  side.offset = 0.5 * bent / trust;
   return side;
 }
 
 }  // namespace
 
-SurfaceSides findSides(std::span<const SurfaceSample> samples, double normalNoise) {
-  constexpr int kMost = 64 * VoxelPlanes::kMax;
-  std::array<bool, kMost> taken{};
-  std::array<int, kMost> members;
+SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
   SurfaceSides sides;
-  const int n = static_cast<int>(samples.size());
-  while (sides.count < SurfaceSides::kMax) {
-    int seed = -1;
-    for (int i = 0; i < n; ++i)
-      if (!taken[i] && samples[i].weight > kLeastSeed && (seed < 0 || samples[i].trust > samples[seed].trust)) seed = i;
-    if (seed < 0) break;
-    Vec3f mean = samples[seed].normal;
-    for (int pass = 0; pass < 2; ++pass) {
-      Vec3f sum{};
-      for (int i = 0; i < n; ++i)
-        if (!taken[i] && dot(samples[i].normal, mean) > kSameSide) sum += samples[i].normal * samples[i].trust;
-      if (length(sum) > 0) mean = sum * (1 / length(sum));
+  forEachBlock(level, 1, [&](std::size_t) {
+    while (sides.count < SurfaceSides::kMax) {
+      const int seed = findSeed(samples);
+      if (seed < 0) break;
+      const Vec3f founder = samples.normal(seed);
+      Vec3f mean = meanNormal(samples, meanNormal(samples, founder));
+      if (!(dot(founder, mean) > kSameSide)) mean = founder;
+      Moments moments;
+      takeLike(samples, mean, moments);
+      sides.side[sides.count++] = fitSide(moments, normalNoise);
     }
-    int count = 0;
-    for (int i = 0; i < n; ++i)
-      if (!taken[i] && (i == seed || dot(samples[i].normal, mean) > kSameSide)) {
-        taken[i] = true;
-        members[count++] = i;
-      }
-    sides.side[sides.count++] = fitSide(samples, std::span(members).first(std::size_t(count)), normalNoise);
-  }
+  });
   return sides;
 }
 
-Vec3d meetingPoint(const SurfaceSides& sides, const Vec3d& start, double sigma) {
+Vec3d meetingPoint(std::span<const SurfaceSide> sides, const Vec3d& start, double sigma) {
   constexpr int kSteps = 3;
   Vec3d y = start;
   for (int step = 0; step < kSteps; ++step) {
-    const double ridge = sigma * sigma * sides.count;
+    const double ridge = sigma * sigma * static_cast<double>(sides.size());
     SymMat3<double> A = SymMat3<double>::identity() * ridge;
     Vec3d b = (start - y) * ridge;
-    for (int i = 0; i < sides.count; ++i) {
-      const SurfaceSide& s = sides.side[i];
+    for (const SurfaceSide& s : sides) {
       const double w = std::min(s.weight, 1.0);
       const Vec3d g = s.gradient(y);
       A += outer(g) * w;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "pdc/math/mat3.h"
@@ -29,15 +30,17 @@ struct SurfaceSides {
   std::array<SurfaceSide, kMax> side;
   int count = 0;
 
+  [[nodiscard]] std::span<const SurfaceSide> all() const { return {side.data(), static_cast<std::size_t>(count)}; }
   void drop(int i) { side[i] = side[--count]; }
 };
 
-/// Sorts samples into sides by their normals: the heaviest first, then what is left of them.
-/// \param foot in world space, in voxels, as the sides are. \param normalNoise expected of each component of a normal.
-[[nodiscard]] SurfaceSides findSides(std::span<const SurfaceSample> samples, double normalNoise);
+/// Sorts samples into sides by their normals: the heaviest first, then what is left of them. Spoils the samples'
+/// weights. The sides are in the space of the samples' feet. \param normalNoise expected of each component of a normal.
+/// \param level changes no bit of them.
+[[nodiscard]] SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level = bestSimdLevel());
 
 /// The point that is nearest to all sides, by their weights (at most 1 each), and, as far as they leave it open, to
 /// `start`. \param sigma as σn of their normals.
-[[nodiscard]] Vec3d meetingPoint(const SurfaceSides& sides, const Vec3d& start, double sigma);
+[[nodiscard]] Vec3d meetingPoint(std::span<const SurfaceSide> sides, const Vec3d& start, double sigma);
 
 }  // namespace pdc::detail

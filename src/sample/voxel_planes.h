@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+
 #include "pdc/math/mat3.h"
+#include "pdc/math/quadric_lanes.h"
+#include "pdc/math/simd_level.h"
 #include "sample/distance_window.h"
 
 namespace pdc::detail {
@@ -12,26 +16,65 @@ struct PlaneTolerance {
   float kink;   ///< One-sided slopes that differ by more lie on different sides of a crease.
 };
 
-/// A plane that the distances about one voxel agree on: through the point of the surface nearest to it.
-struct SurfaceSample {
-  Vec3f normal;  ///< In world space.
-  Vec3f foot;    ///< Lattice units from the block's origin.
-  float weight;  ///< How much it says that there is such a piece of surface, in (0, 1].
-  float trust;   ///< How much it says where, beside others of the same piece; in (0, weight].
+/// Planes that the distances about single voxels agree on, each through the point of the surface nearest to its voxel.
+struct SurfaceSamples {
+  enum Column {
+    kNormalX,  ///< Unit normal in world space.
+    kNormalY,
+    kNormalZ,
+    kFootX,  ///< The point, from the centre of a cell, in world space, in voxels.
+    kFootY,
+    kFootZ,
+    kWeight,  ///< How much it says that there is such a piece of surface, in [0, 1].
+    kTrust,   ///< How much it says where, beside others of the same piece; in [0, weight].
+    kColumns
+  };
+  static constexpr int kOctants = 8;
+  /// Of the 4×4×4 voxels about a cell, one per octant.
+  static constexpr int kMost = 4 * 4 * 4 * kOctants, kCapacity = kMost + kLanes;
+
+  [[nodiscard]] int blocks() const { return static_cast<int>(blockCount(static_cast<std::size_t>(count))); }
+  [[nodiscard]] Vec3f normal(int i) const { return {column[kNormalX][i], column[kNormalY][i], column[kNormalZ][i]}; }
+  [[nodiscard]] Vec3f foot(int i) const { return {column[kFootX][i], column[kFootY][i], column[kFootZ][i]}; }
+
+  alignas(64) std::array<std::array<float, kCapacity>, kColumns> column;
+  int count = 0;  ///< The rest of the last block of lanes has no weight.
 };
 
-/// The planes of one voxel: one where its surroundings are smooth, more where a crease's bisector passes by.
-struct VoxelPlanes {
-  static constexpr int kMax = 3;
-  std::array<SurfaceSample, kMax> plane;
-  int count = 0;
-};
+/// The samples of a block's voxels, found a row at a time.
+///
+/// Along each axis a voxel has slopes from both sides (see OneSidedSlopes), so that one sees one side of a crease only.
+/// A combination of slopes, one of the eight octants, is believed as far as it has length one, as a distance's gradient
+/// has, and its octant's face diagonals hold what it predicts. A voxel whose surroundings are smooth has one sample,
+/// more where a crease's bisector passes by.
+class VoxelPlanes {
+ public:
+  /// \param window must outlive this. \param M from lattice steps to world space, in voxels. \param level changes no
+  /// bit of the samples.
+  VoxelPlanes(const DistanceWindow& window, const PlaneTolerance& tolerance, const Mat3f& M,
+              SimdLevel level = bestSimdLevel())
+      : mWindow(window), mTolerance(tolerance), mM(M), mK(inverse(M)), mLevel(level) {}
 
-/// Along each axis slopes are taken from both sides (see OneSidedSlopes), so that one sees one side of a crease only. A
-/// combination of slopes, one of the eight octants, is believed as far as it has length one, as a distance's gradient
-/// has, and its octant's face diagonals hold what it predicts. \param K from steps in world space, in voxels, to
-/// lattice units; Kᵀ takes slopes along the lattice to gradients.
-[[nodiscard]] VoxelPlanes voxelPlanes(const DistanceWindow& window, const Coord& voxel, const PlaneTolerance& tolerance,
-                                      const Mat3f& K);
+  /// Must be called for all cells that gather() will be called for, before the first.
+  void expect(const Coord& cell);
+  /// Collects the samples of the 4×4×4 voxels about a cell of the block; the nearer their foot, the more they weigh.
+  void gather(const Coord& cell, SurfaceSamples& samples);
+
+ private:
+  static constexpr int kVoxels = kBlockPoints + 2;  ///< -1 to 9 on each axis.
+  static constexpr int kCapacity = kVoxels * kVoxels * kVoxels * SurfaceSamples::kOctants + kLanes;
+
+  void find(int row);
+
+  const DistanceWindow& mWindow;
+  PlaneTolerance mTolerance;
+  Mat3f mM, mK;
+  SimdLevel mLevel;
+
+  std::array<std::uint16_t, kVoxels * kVoxels> mNeeded{};  ///< By row: bit z + 1; 0 once they are found.
+  std::array<std::array<std::uint16_t, kVoxels + 1>, kVoxels * kVoxels> mStart;  ///< By row: first sample of a voxel.
+  std::array<std::array<float, kCapacity>, SurfaceSamples::kColumns> mColumn;
+  int mCount = 0;
+};
 
 }  // namespace pdc::detail

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "sample/kinks.h"
+#include "sample/surface_sides.h"
 #include "sample/voxel_planes.h"
 
 namespace pdc::detail {
@@ -43,69 +45,109 @@ double degrees(const Vec3f& a, const Vec3d& b) {
   return std::acos(std::min(1.0, dot(vecCast<double>(a), b))) * 180 / 3.14159265358979323846;
 }
 
+SurfaceSamples samplesAbout(const DistanceWindow& w, const Coord& cell, const Mat3f& M = Mat3f::identity(),
+                            SimdLevel level = bestSimdLevel()) {
+  const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, M, level);
+  SurfaceSamples samples;
+  voxels->expect(cell);
+  voxels->gather(cell, samples);
+  return samples;
+}
+
+/// Where a sample of the cell {4, 4, 4} lies, from kTip; the lattice's steps are one voxel.
+Vec3d fromTip(const SurfaceSamples& samples, int i) {
+  return vecCast<double>(samples.foot(i)) + Vec3d{4.5, 4.5, 4.5} - kTip;
+}
+
 TEST(VoxelPlanes, APlaneIsFoundExactly) {
-  const auto w = window([](const Vec3d& p) { return dot(p - kTip, kLeft); });
-  const VoxelPlanes planes = voxelPlanes(w, {5, 4, 3}, kTolerance, Mat3f::identity());
-  ASSERT_EQ(planes.count, 1);
-  EXPECT_LT(degrees(planes.plane[0].normal, kLeft), 0.05);
-  EXPECT_NEAR(dot(vecCast<double>(planes.plane[0].foot) - kTip, kLeft), 0, 1e-5);
-  EXPECT_GT(planes.plane[0].weight, 0.99F);
+  const SurfaceSamples samples = samplesAbout(window([](const Vec3d& p) { return dot(p - kTip, kLeft); }), {4, 4, 4});
+  ASSERT_EQ(samples.count, 64);
+  for (int i = 0; i < samples.count; ++i) {
+    EXPECT_LT(degrees(samples.normal(i), kLeft), 0.05);
+    EXPECT_NEAR(dot(fromTip(samples, i), kLeft), 0, 1e-5);
+  }
 }
 
 TEST(VoxelPlanes, BesideAnEdgeTrustedPlanesAreThoseOfItsSides) {
-  const auto w = window(wedge);
+  const SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4});
   int left = 0, right = 0;
-  for (int x = 2; x <= 6; ++x)
-    for (int y = 2; y <= 6; ++y)
-      for (int z = 2; z <= 6; ++z) {
-        const VoxelPlanes planes = voxelPlanes(w, {x, y, z}, kTolerance, Mat3f::identity());
-        for (int i = 0; i < planes.count; ++i) {
-          const SurfaceSample& s = planes.plane[i];
-          if (s.trust < 0.5F) continue;
-          const bool isLeft = degrees(s.normal, kLeft) < 1, isRight = degrees(s.normal, kRight) < 1;
-          left += isLeft;
-          right += isRight;
-          const Vec3d foot = vecCast<double>(s.foot) - kTip;
-          // What is nearest to the edge says something true as well: a plane through the edge.
-          const Vec3d along = unit(cross(kLeft, kRight));
-          const bool edge = length(foot - along * dot(foot, along)) < 0.05;
-          EXPECT_TRUE(isLeft || isRight || edge) << x << ' ' << y << ' ' << z;
-        }
-      }
-  EXPECT_GT(left, 15);
-  EXPECT_GT(right, 15);
+  for (int i = 0; i < samples.count; ++i) {
+    if (!(samples.column[SurfaceSamples::kTrust][i] > 0.5F * samples.column[SurfaceSamples::kWeight][i])) continue;
+    const bool isLeft = degrees(samples.normal(i), kLeft) < 1, isRight = degrees(samples.normal(i), kRight) < 1;
+    left += isLeft;
+    right += isRight;
+    // What is nearest to the edge says something true as well: a plane through the edge.
+    const Vec3d along = unit(cross(kLeft, kRight)), foot = fromTip(samples, i);
+    const bool edge = length(foot - along * dot(foot, along)) < 0.05;
+    EXPECT_TRUE(isLeft || isRight || edge) << foot.x << ' ' << foot.y << ' ' << foot.z;
+  }
+  EXPECT_GT(left, 5);
+  EXPECT_GT(right, 5);
 }
 
 TEST(VoxelPlanes, StretchedLatticesGiveTheSamePlanes) {
   // One lattice step along x is half a voxel, along y two.
   const auto w = window([](const Vec3d& p) { return dot(Vec3d{0.5 * p.x, 2 * p.y, p.z} - kTip, kLeft); });
-  const VoxelPlanes planes = voxelPlanes(w, {5, 4, 3}, kTolerance, Mat3f::diagonal(2, 0.5F, 1));
-  ASSERT_EQ(planes.count, 1);
-  EXPECT_LT(degrees(planes.plane[0].normal, kLeft), 0.05);
-  const Vec3d foot = vecCast<double>(planes.plane[0].foot);
-  EXPECT_NEAR(dot(Vec3d{0.5 * foot.x, 2 * foot.y, foot.z} - kTip, kLeft), 0, 1e-5);
+  const SurfaceSamples samples = samplesAbout(w, {5, 2, 3}, Mat3f::diagonal(0.5F, 2, 1));
+  ASSERT_EQ(samples.count, 64);
+  const Vec3d center{0.5 * 5.5, 2 * 2.5, 3.5};
+  for (int i = 0; i < samples.count; ++i) {
+    EXPECT_LT(degrees(samples.normal(i), kLeft), 0.05);
+    EXPECT_NEAR(dot(vecCast<double>(samples.foot(i)) + center - kTip, kLeft), 0, 1e-5);
+  }
 }
 
 TEST(VoxelPlanes, WhatIsNoDistanceGivesNone) {
-  const auto w = window([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); });
-  EXPECT_EQ(voxelPlanes(w, {5, 4, 3}, kTolerance, Mat3f::identity()).count, 0);
+  const SurfaceSamples samples =
+      samplesAbout(window([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); }), {4, 4, 4});
+  for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kWeight][i], 0);
+}
+
+TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
+  const DistanceWindow w = window(wedge);
+  const SurfaceSamples best = samplesAbout(w, {4, 4, 4}),
+                       baseline = samplesAbout(w, {4, 4, 4}, Mat3f::identity(), SimdLevel::kBaseline);
+  ASSERT_EQ(best.count, baseline.count);
+  for (int c = 0; c < SurfaceSamples::kColumns; ++c)
+    for (int i = 0; i < best.count; ++i) EXPECT_EQ(best.column[c][i], baseline.column[c][i]);
+}
+
+TEST(SurfaceSides, AnEdgeHasTwoThatMeetOnIt) {
+  SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4}), again = samples;
+  const SurfaceSides sides = findSides(samples, 0);
+  ASSERT_GE(sides.count, 2);
+  EXPECT_LT(std::min(degrees(vecCast<float>(sides.side[0].normal), kLeft),
+                     degrees(vecCast<float>(sides.side[0].normal), kRight)),
+            1);
+  const Vec3d meeting = meetingPoint(sides.all().first(2), {}, 0.01) + Vec3d{4.5, 4.5, 4.5} - kTip,
+              along = unit(cross(kLeft, kRight));
+  EXPECT_LT(length(meeting - along * dot(meeting, along)), 0.01);
+
+  const SurfaceSides baseline = findSides(again, 0, SimdLevel::kBaseline);
+  ASSERT_EQ(sides.count, baseline.count);
+  for (int i = 0; i < sides.count; ++i) {
+    EXPECT_EQ(sides.side[i].center, baseline.side[i].center);
+    EXPECT_EQ(sides.side[i].normal, baseline.side[i].normal);
+    EXPECT_EQ(sides.side[i].weight, baseline.side[i].weight);
+  }
 }
 
 TEST(Kinks, SmoothSurfacesHaveNone) {
-  const Kinks kinks = findKinks(window(ball), kTolerance.kink);
+  const DistanceWindow w = window(ball);
+  Kinks kinks(w, kTolerance.kink);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 8; ++z) EXPECT_TRUE(kinks.noneAbout({x, y, z}));
 }
 
 TEST(Kinks, CellsAtAnEdgeHaveSome) {
-  const Kinks kinks = findKinks(window(wedge), kTolerance.kink);
-  EXPECT_FALSE(kinks.noneAbout({4, 4, 4}));
+  const DistanceWindow w = window(wedge);
+  EXPECT_FALSE(Kinks(w, kTolerance.kink).noneAbout({4, 4, 4}));
 }
 
 TEST(Kinks, DoNotDependOnTheProcessor) {
   const DistanceWindow w = window(wedge);
-  const Kinks best = findKinks(w, kTolerance.kink), baseline = findKinks(w, kTolerance.kink, SimdLevel::kBaseline);
+  Kinks best(w, kTolerance.kink), baseline(w, kTolerance.kink, SimdLevel::kBaseline);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAbout({x, y, z}), baseline.noneAbout({x, y, z}));

@@ -37,14 +37,16 @@ Halo sample(const F& f) {
 
 TEST(FillFromHalo, FindsThePlaneOfALinearFunction) {
   const Vec3d n = Vec3d{2, -3, 6} * (1.0 / 7);
-  const auto f = [&](int x, int y, int z) { return static_cast<float>(dot(n, Vec3d(x, y, z)) - 2.1); };
+  const auto f = [&](int x, int y, int z) {
+    return static_cast<float>(dot(n, Vec3d{double(x), double(y), double(z)}) - 2.1);
+  };
   const Halo halo = sample(f);
   const EdgeIndex edges(signsOf(halo));
   ASSERT_GT(edges.size(), 50);
   HermiteBlock hermite;
   fillFromHalo(halo, edges, kNoLimits, Mat3f::identity(), hermite);
   edges.forEach([&](int i, int axis, int x, int y, int z) {
-    Vec3d p(x, y, z);
+    Vec3d p{double(x), double(y), double(z)};
     p[axis] += hermite.t[i];
     EXPECT_NEAR(dot(n, p), 2.1, 1e-6);
     EXPECT_LT(length(Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]} - n), 1e-6);
