@@ -6,6 +6,7 @@
 #include <map>
 
 #include "input_kind.h"
+#include "io/mesh_format.h"
 #include "numbers.h"
 #include "pdc/error.h"
 
@@ -40,6 +41,8 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
+  command.add_flag("--confidence", request.confidence, "A confidence from 0 to 1 per vertex, in a .ply")->group(group);
+  command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner), in a .ply")->group(group);
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
 
@@ -84,6 +87,8 @@ ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
           .placement = kPlacements.at(placement),
           .triangles = triangles,
           .normals = normals,
+          .confidence = confidence,
+          .ranks = rank,
           .threads = threads.value_or(0)};
 }
 
@@ -116,6 +121,9 @@ void checkMeshRequest(const MeshRequest& request) {
       throw Error(
           fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
   }
+  const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
+  refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");
+  refuseOther(request.rank && otherThanPly(), "--rank", ".ply outputs");
   if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
   if (request.json.empty()) return;
   if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");

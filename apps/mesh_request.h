@@ -17,7 +17,7 @@ struct MeshRequest {
   std::optional<int> resolution, threads;
   std::string placement = "certified";
   bool triangles = false, open = false, normals = false, ascii = false;
-  bool requireSurface = false, quiet = false;
+  bool confidence = false, rank = false, requireSurface = false, quiet = false;
 
   /// All of ContourOptions; `assumedSigma` holds where the command line does not say sigma.
   [[nodiscard]] ContourOptions contourOptions(double assumedSigma) const;

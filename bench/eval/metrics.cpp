@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "eval/nearest.h"
 
@@ -71,8 +72,7 @@ Vec3d surfaceNormal(const Shape& shape, const Pose& pose, const Vec3d& p) {
 
 void measureVertices(const Mesh& mesh, const Shape& shape, const Pose& pose, Figures& f) {
   double sum = 0;
-  for (const Vec3f& v : mesh.positions) {
-    const double d = std::abs(shape.distance(pose.toShape(vecCast<double>(v)))) * pose.size;
+  for (const double d : vertexErrors(mesh, shape, pose)) {
     sum += d * d;
     f.vertexMax = std::max(f.vertexMax, d);
   }
@@ -135,7 +135,35 @@ double edgeF1(const std::vector<Segment>& sharp, const std::vector<Vec3d>& truth
   return 2 * precision * recall / (precision + recall);
 }
 
+/// Where each value comes when they are sorted; equal ones in their own order.
+std::vector<double> places(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return values[i] < values[k]; });
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<double>(i);
+  return out;
+}
+
 }  // namespace
+
+std::vector<double> vertexErrors(const Mesh& mesh, const Shape& shape, const Pose& pose) {
+  std::vector<double> errors;
+  for (const Vec3f& v : mesh.positions)
+    errors.push_back(std::abs(shape.distance(pose.toShape(vecCast<double>(v)))) * pose.size);
+  return errors;
+}
+
+double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> u = places(a), v = places(b);
+  const double mean = (static_cast<double>(a.size()) - 1) / 2;
+  double both = 0, own = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += (u[i] - mean) * (v[i] - mean);
+    own += (u[i] - mean) * (u[i] - mean);
+  }
+  return own > 0 ? both / own : 0;
+}
 
 Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
   Figures f;

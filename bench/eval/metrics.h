@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "eval/shapes.h"
 #include "pdc/mesh/mesh.h"
 
@@ -16,6 +18,12 @@ struct Figures {
                          ///< kNear of a true crease, and of points of the measured edges within kNear of a sharp edge.
   static constexpr double kFar = 2, kAway = 2, kSharp = 20, kNear = 0.1;
 };
+
+/// Distance of each vertex from the surface, in voxels.
+[[nodiscard]] std::vector<double> vertexErrors(const Mesh& mesh, const Shape& shape, const Pose& pose);
+
+/// Spearman's: the correlation of the places that values have when they are sorted. \pre as many of both
+[[nodiscard]] double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b);
 
 [[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose);
 

@@ -15,18 +15,8 @@
 namespace pdc::detail {
 namespace {
 
-Vec3d toVec3d(const Coord& c) { return {double(c[0]), double(c[1]), double(c[2])}; }
-
 /// Blocks between asking for a block's data and using it: half a microsecond or more.
 constexpr std::size_t kAhead = 4;
-
-/// Only a map that is not affine has a metric that changes from block to block; within one it is taken as constant.
-CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
-  if (map.affine()) return CellMetric(map.jacobian({}), map.voxelSize());
-  constexpr double kMiddle = kBlockSize / 2.0;
-  const Mat3d J = map.jacobian(origin + Vec3d{kMiddle, kMiddle, kMiddle});
-  return CellMetric(J, std::cbrt(std::abs(J.determinant())));
-}
 
 /// Half the size of the part of a block's cells whose points stay well within the cell when their world coordinates are
 /// rounded to single precision.
@@ -194,23 +184,9 @@ struct BlockVertexSolver::Scratch {
     }
   }
 
-  /// Lists the block's patches for the source. \pre patches are listed
-  void listForSource() {
-    forSource.clear();
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      forSource.push_back({patches.patch(i).cell, static_cast<std::uint16_t>(patches.patch(i).edges.bits())});
-  }
-
-  /// What the source knows of patch i beyond its crossings, or null.
-  [[nodiscard]] const FeaturePlanes::Patch* featureOf(std::size_t i) const {
-    const auto it = std::lower_bound(planes.patches.begin(), planes.patches.end(), i,
-                                     [](const FeaturePlanes::Patch& p, std::size_t n) { return p.patch < n; });
-    return it != planes.patches.end() && it->patch == i ? &*it : nullptr;
-  }
-
   [[nodiscard]] bool mustSolveAlone(const BlockState& block, std::size_t i, int lane) const {
     const Patch& patch = patches.patch(i);
-    if (featureOf(i) != nullptr) return true;
+    if (planes.find(i) != nullptr) return true;
     const bool promised = block.out.doubts != nullptr;
     const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
     return lanes.step.solved[lane] == 0 || (promised && patch.strict) || !(lanes.reach[lane] <= limit);
@@ -228,7 +204,7 @@ struct BlockVertexSolver::Scratch {
       samples.row[k] = vecCast<double>(crossings.plane(edge));
     }
     samples.features = {};
-    if (const FeaturePlanes::Patch* feature = featureOf(i)) {
+    if (const FeaturePlanes::Patch* feature = planes.find(i)) {
       // About the centre of the cell.
       features.assign(planes.of(*feature).begin(), planes.of(*feature).end());
       for (FeaturePlanes::Plane& p : features) p.point -= vecCast<float>(center);
@@ -352,7 +328,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const Coord& block = blocks.coords[index];
   const BlockSigns& signs = blocks.signs[index];
   const EdgeIndex edges(signs);
-  const Vec3d origin = toVec3d({block[0] * kBlockSize, block[1] * kBlockSize, block[2] * kBlockSize});
+  const Vec3d origin = blockOrigin(block);
   const CellMetric metric = blockMetric(mSource.map(), origin);
   const double sigma = mScratch->solver.sigma();
   mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
@@ -363,7 +339,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
   scratch.patches.list(topology.blocks[index], signs);
   scratch.patches.sum(scratch.crossings, edges, scratch.level);
-  scratch.listForSource();
+  scratch.patches.listForSource(scratch.forSource);
   scratch.planes.clear();
   mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.forSource, scratch.planes);
   const BlockState state{static_cast<std::int32_t>(index),

@@ -9,6 +9,7 @@
 #include "extract/block_topology.h"
 #include "extract/certify.h"
 #include "extract/fill_mesh.h"
+#include "extract/rate_vertices.h"
 #include "with_threads.h"
 
 namespace pdc {
@@ -48,6 +49,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
       fillMesh(source, blocks, topology, options, mesh, promised ? &doubts : nullptr, monitor);
   detail::CertifyCounts certified;
   if (promised) certified = certify(source, blocks, topology, doubts, mesh, monitor);
+  if (options.confidence || options.ranks) rateVertices(source, blocks, topology, options, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),

@@ -40,6 +40,13 @@ CellMetric::CellMetric(const Mat3d& jacobian, double unit)
   }
 }
 
+CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
+  if (map.affine()) return CellMetric(map.jacobian({}), map.voxelSize());
+  constexpr double kMiddle = kBlockSize / 2.0;
+  const Mat3d J = map.jacobian(origin + Vec3d{kMiddle, kMiddle, kMiddle});
+  return CellMetric(J, std::cbrt(std::abs(J.determinant())));
+}
+
 VertexSolver::VertexSolver(double sigmaNormal, double halfSize) : mSigma(sigmaNormal), mHalfSize(halfSize) {}
 
 bool VertexSolver::batched() const { return mSigma >= kMinBatchSigma && std::isfinite(mSigma); }

@@ -6,6 +6,8 @@
 #include "pdc/extract/contour.h"
 #include "pdc/math/quadric.h"
 #include "pdc/sample/feature_planes.h"
+#include "pdc/sample/hermite_block.h"
+#include "pdc/sample/lattice_map.h"
 
 namespace pdc::detail {
 
@@ -19,6 +21,15 @@ struct CellMetric {
   SymMat3<double> G;      ///< MᵀM.
   bool identity = false;  ///< True for the common case of a uniform, unrotated lattice, where M = G = I.
 };
+
+/// Of a block whose lowest point is `origin`. Only a map that is not affine has a metric that changes from block to
+/// block; within one it is taken as constant.
+[[nodiscard]] CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin);
+
+/// The lowest point of a block.
+[[nodiscard]] inline Vec3d blockOrigin(const Coord& block) {
+  return {double(kBlockSize) * block[0], double(kBlockSize) * block[1], double(kBlockSize) * block[2]};
+}
 
 /// Hermite data of one surface patch in lattice units about the centre of its cell.
 struct PatchSamples {

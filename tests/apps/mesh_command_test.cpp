@@ -192,5 +192,19 @@ TEST_F(MeshCommand, NormalsAreWritten) {
   EXPECT_NE(readFile(mOutput).find("property float nx"), std::string::npos);
 }
 
+TEST_F(MeshCommand, ConfidenceAndRankAreWrittenAndDrawn) {
+  contour({bulletGrid()});
+  const Mesh plain = readMesh(mOutput);
+  contour({bulletGrid(), "--confidence", "--rank"});
+  const Mesh rated = readMesh(mOutput);
+  EXPECT_EQ(rated.positions, plain.positions);
+  EXPECT_EQ(rated.quads, plain.quads);
+  EXPECT_EQ(readVertexProperty(mOutput, "confidence").value().size(), plain.positions.size());
+  EXPECT_EQ(readVertexProperty(mOutput, "rank").value().size(), plain.positions.size());
+  const Outcome drawn = runPdc({"render", mOutput, mFolder / "rated.png", "--shading", "confidence"});
+  EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("confidence from 0, blue, to 1, yellow"), std::string::npos) << drawn.out;
+}
+
 }  // namespace
 }  // namespace pdc::test

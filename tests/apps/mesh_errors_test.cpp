@@ -193,6 +193,11 @@ TEST_F(MeshErrors, OptionsOfTheOtherKindOfInput) {
   expectRefusal({"any.yaml", "--nan", "outside"}, kUsage, {"--nan", ".vdb inputs only"});
 }
 
+TEST_F(MeshErrors, PropertiesThatTheFormatLacks) {
+  expectRefusal({mBullet, mFolder / "out.stl", "--confidence"}, kUsage, {"--confidence", ".ply outputs only"});
+  expectRefusal({mBullet, mFolder / "out.obj", "--rank"}, kUsage, {"--rank", ".ply outputs only"});
+}
+
 TEST_F(MeshErrors, VoxelSizeAndResolution) {
   expectRefusal({"any.yaml", "--voxel-size", "1", "--resolution", "10"}, kUsage, {"--voxel-size", "--resolution"});
   for (const char* text : {"0", "-1", "inf", "nan"}) {

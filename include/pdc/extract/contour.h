@@ -22,8 +22,20 @@ struct ContourOptions {
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
-  int threads = 0;         ///< 0: all. The result does not depend on it, byte for byte.
+  /// Also the confidence of each vertex, 1 / (1 + s / kHalfConfidence), where s estimates the standard deviation of the
+  /// vertex's place in voxels: s² is the variance that the residuals of its planes give the solution in the directions
+  /// that they determine (Gauss-Markov), plus the square of its distance from its neighbours' mean along its normal,
+  /// neighbours across a crease left out. So noise lowers it, and so do tight curvature and being drawn back. It knows
+  /// nothing of errors that all vertices about a place share. Costs about as much again as contouring.
+  bool confidence = false;
+  /// Also the rank of each vertex: the number of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the
+  /// trace, so that planes at 26° or more count as two.
+  bool ranks = false;
+  int threads = 0;  ///< 0: all. The result does not depend on it, byte for byte.
 };
+
+/// The standard deviation, in voxels, of a vertex whose confidence is one half.
+inline constexpr double kHalfConfidence = 0.1;
 
 /// Counts of one contour() call; no verdicts.
 struct ContourReport {
