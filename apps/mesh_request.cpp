@@ -26,10 +26,18 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
           "Isovalue (level sets and scenes: 0, fog volumes: 0.5)")
       ->type_name("V")
       ->group(group);
-  addReal(
-      command, "--sigma-n", request.sigmaNormal, [](double v) { return v >= 0; }, "a number >= 0 or inf",
-      "Assumed noise of the unit normals (0.05)")
-      ->type_name("S|inf")
+  const auto sigma = [&request](const std::string& text) {
+    const std::vector<double> value = parseReals(text, ',');
+    const bool number = value.size() == 1 && value[0] >= 0;
+    if (text != "auto" && !number)
+      throw CLI::ValidationError("--sigma-n", fmt::format("'{}' is not a number >= 0 or inf, or auto", text));
+    request.sigmaFromData = !number;
+    request.sigmaNormal = number ? std::optional(value[0]) : std::nullopt;
+  };
+  command
+      .add_option_function<std::string>("--sigma-n", sigma,
+                                        "Assumed noise of the unit normals (0.05); auto: from the data")
+      ->type_name("S|inf|auto")
       ->group(group);
   command
       .add_option("--placement", request.placement,
@@ -46,6 +54,21 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
 
+}  // namespace
+
+void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
+  command
+      .add_option("--sigma-grid", request.sigmaGrid,
+                  "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+      ->type_name("NAME")
+      ->group(group);
+}
+
+namespace {
+
 void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto grids = "For .vdb inputs";
@@ -61,6 +84,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("MODE")
       ->check(CLI::IsMember({"auto", "gradient", "distance"}))
       ->group(grids);
+  addNoiseGrids(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -83,7 +107,7 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 }  // namespace
 
 ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
-  return {.sigmaNormal = sigmaNormal.value_or(assumedSigma),
+  return {.sigmaNormal = sigmaFromData ? std::nullopt : std::optional(sigmaNormal.value_or(assumedSigma)),
           .placement = kPlacements.at(placement),
           .triangles = triangles,
           .normals = normals,
@@ -116,6 +140,8 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
       refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
+      refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
+      refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       break;
     case InputKind::kOther:
       throw Error(

@@ -28,7 +28,8 @@ struct Request {
   unsigned poses = 20, firstPose = 0;
   bool heldOut = false;
   std::vector<std::string> shapes{}, inputs{"exact"}, methods{"volume_to_mesh", "gradient", "distance"};
-  std::vector<double> noise{0}, sigma{0.05};
+  std::vector<double> noise{0};
+  std::vector<std::string> sigma{"0.05"};
   std::string placement = "certified";
   bool confidence = false;
 };
@@ -36,7 +37,8 @@ struct Request {
 struct Case {
   const Shape& shape;
   std::string input, method;
-  double noise, sigma;
+  double noise;
+  std::string sigma;
 };
 
 struct Outcome {
@@ -70,10 +72,11 @@ Mesh volumeToMesh(const GridInput& input) {
 
 Mesh contourCase(const Case& c, const HermiteSource& source, const Request& request, Outcome& outcome) {
   ContourReport report;
-  Mesh mesh = contour(
-      source,
-      {.sigmaNormal = c.sigma, .placement = kPlacements.at(request.placement), .confidence = request.confidence},
-      &report);
+  Mesh mesh = contour(source,
+                      {.sigmaNormal = c.sigma == "auto" ? std::nullopt : std::optional(std::stod(c.sigma)),
+                       .placement = kPlacements.at(request.placement),
+                       .confidence = request.confidence},
+                      &report);
   outcome.drawnBack = report.shortened + report.drawnIn;
   return mesh;
 }
@@ -90,19 +93,22 @@ Outcome evaluate(const Case& c, const Pose& pose, unsigned seed, const Request& 
     const FieldSource source(field, {.box = {{-reach, -reach, -reach}, {reach, reach, reach}}, .voxelSize = 1});
     mesh = contourCase(c, source, request, outcome);
   } else {
-    const GridInput input = makeGrid(c.input, c.shape, pose, c.noise, seed);
+    const bool graded = c.input == "graded";
+    const GridInput input =
+        graded ? makeGradedGrid(c.shape, pose, c.noise, seed) : makeGrid(c.input, c.shape, pose, c.noise, seed);
     begin = start();
     if (c.method == "volume_to_mesh") {
       mesh = volumeToMesh(input);
     } else {
-      const GridSource source(
-          input.grid,
-          {.iso = input.iso, .hermite = c.method == "distance" ? HermiteMode::kDistance : HermiteMode::kGradient});
+      const bool distance = c.method.starts_with("distance");
+      const GridSource source(input.grid, {.iso = input.iso,
+                                           .hermite = distance ? HermiteMode::kDistance : HermiteMode::kGradient,
+                                           .sigma = c.method.ends_with("_sigma") ? input.sigma : nullptr});
       mesh = contourCase(c, source, request, outcome);
     }
   }
   outcome.milliseconds = std::chrono::duration<double, std::milli>(start() - begin).count();
-  outcome.figures = measure(mesh, c.shape, pose);
+  outcome.figures = measure(mesh, c.shape, pose, c.input == "graded" ? Part::kHalves : Part::kAll);
   if (!mesh.confidence.empty()) {
     std::vector<double> doubt;
     for (const float v : mesh.confidence) doubt.push_back(-v);
@@ -149,7 +155,7 @@ void run(const Request& request) {
     for (const std::string& input : request.inputs)
       for (const double noise : request.noise)
         for (const std::string& method : request.methods)
-          for (const double sigma : request.sigma) {
+          for (const std::string& sigma : request.sigma) {
             const bool once = sigma == request.sigma.front();
             if (method == "volume_to_mesh" && !once) continue;
             if (input == "function" && (method != "gradient" || noise > 0)) continue;
@@ -169,10 +175,16 @@ int main(int argc, char** argv) {
   app.add_option("--first-pose", request.firstPose, "Number of the first");
   app.add_flag("--held-out", request.heldOut, "The shapes, poses and noise that were kept apart");
   app.add_option("--shapes", request.shapes, "Only these")->delimiter(',');
-  app.add_option("--inputs", request.inputs, "function, exact, half, iso, mesh")->delimiter(',');
-  app.add_option("--methods", request.methods, "volume_to_mesh, gradient, distance")->delimiter(',');
+  app.add_option("--inputs", request.inputs,
+                 "function, exact, half, iso, mesh; graded: noise that grows\nalong x, of which the noisy half's "
+                 "vertices and the clean half's edges are measured")
+      ->delimiter(',');
+  app.add_option(
+         "--methods", request.methods,
+         "volume_to_mesh, gradient, distance; of graded inputs also\ngradient_sigma, distance_sigma: with the σ grid")
+      ->delimiter(',');
   app.add_option("--noise", request.noise, "Standard deviations, in voxels")->delimiter(',');
-  app.add_option("--sigma", request.sigma, "Standard deviations of normals")->delimiter(',');
+  app.add_option("--sigma", request.sigma, "Standard deviations of normals, or auto")->delimiter(',');
   app.add_option("--placement", request.placement)->check(CLI::IsMember(pdc::eval::kPlacements));
   app.add_flag("--confidence", request.confidence,
                "Also the rank correlation of the vertices' lack of confidence with their errors");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -70,13 +71,16 @@ Vec3d surfaceNormal(const Shape& shape, const Pose& pose, const Vec3d& p) {
   return g * (1 / length(g));
 }
 
-void measureVertices(const Mesh& mesh, const Shape& shape, const Pose& pose, Figures& f) {
-  double sum = 0;
-  for (const double d : vertexErrors(mesh, shape, pose)) {
-    sum += d * d;
-    f.vertexMax = std::max(f.vertexMax, d);
+void measureVertices(const Mesh& mesh, const Shape& shape, const Pose& pose, double fromX, Figures& f) {
+  const std::vector<double> errors = vertexErrors(mesh, shape, pose);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!(double{mesh.positions[i].x} > fromX)) continue;
+    sum += errors[i] * errors[i];
+    count += 1;
+    f.vertexMax = std::max(f.vertexMax, errors[i]);
   }
-  if (!mesh.positions.empty()) f.vertexRms = std::sqrt(sum / static_cast<double>(mesh.positions.size()));
+  if (count > 0) f.vertexRms = std::sqrt(sum / count);
 }
 
 void measureNormals(const std::vector<Triangle>& triangles, const Mesh& mesh, const Shape& shape, const Pose& pose,
@@ -165,10 +169,13 @@ double rankCorrelation(const std::vector<double>& a, const std::vector<double>& 
   return own > 0 ? both / own : 0;
 }
 
-Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
+Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool halves = part == Part::kHalves;
+  const double fromX = halves ? pose.offset.x : -kInfinity, toX = halves ? pose.offset.x : kInfinity;
   Figures f;
   const std::vector<Triangle> triangles = allTriangles(mesh);
-  measureVertices(mesh, shape, pose, f);
+  measureVertices(mesh, shape, pose, fromX, f);
   measureNormals(triangles, mesh, shape, pose, f);
   if (shape.edges.empty() && shape.corners.empty()) return f;
   Nearest surface(Figures::kFar);
@@ -176,7 +183,8 @@ Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
     const Corners c = corners(mesh, t);
     surface.add({c.p[0], c.p[1], c.p[2]});
   }
-  const std::vector<Vec3d> truth = edgePoints(shape.edges, pose);
+  std::vector<Vec3d> truth = edgePoints(shape.edges, pose);
+  std::erase_if(truth, [&](const Vec3d& p) { return !(p.x < toX); });
   double sum = 0;
   for (const Vec3d& p : truth) {
     const double d = surface.distance(p);
@@ -184,7 +192,8 @@ Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
     f.edgeMax = std::max(f.edgeMax, d);
   }
   if (!truth.empty()) f.edgeRms = std::sqrt(sum / static_cast<double>(truth.size()));
-  for (const Vec3d& c : shape.corners) f.cornerMax = std::max(f.cornerMax, surface.distance(pose.toWorld(c)));
+  for (const Vec3d& c : shape.corners)
+    if (pose.toWorld(c).x < toX) f.cornerMax = std::max(f.cornerMax, surface.distance(pose.toWorld(c)));
   f.edgeF1 = edgeF1(sharpEdges(triangles, mesh), truth, shape, pose);
   return f;
 }

@@ -25,6 +25,9 @@ struct Figures {
 /// Spearman's: the correlation of the places that values have when they are sorted. \pre as many of both
 [[nodiscard]] double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b);
 
-[[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose);
+/// What is measured: everything, or vertices beyond the solid's middle along x and edges and corners before it.
+enum class Part { kAll, kHalves };
+
+[[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part = Part::kAll);
 
 }  // namespace pdc::eval

@@ -69,10 +69,18 @@ struct PatchLanes {
 /// Vertices are solved a register's worth at once, in single precision about their mass points. Those that leave their
 /// bounds, and all where σn is too small for single precision, are solved in double.
 struct BlockVertexSolver::Scratch {
-  Scratch(const LatticeMap& m, double sigmaNormal, double halfSize, SimdLevel l)
-      : map(m), solver(sigmaNormal, halfSize), level(l), linear(m.affine() ? m.jacobian({}) : Mat3d{}) {}
+  Scratch(const HermiteSource& source, const SigmaNormal& sigma, double halfSize, SimdLevel l)
+      : map(source.map()),
+        solver(sigma, halfSize),
+        level(l),
+        linear(map.affine() ? map.jacobian({}) : Mat3d{}),
+        noise(source.knowsNoise() ? std::make_unique<PlaneNoise>() : nullptr) {
+    samples.noisy = noise != nullptr;
+  }
 
-  void run(const BlockState& block) {
+  /// \param sigmaOf see solve().
+  template <typename SigmaOf>
+  void run(const BlockState& block, const SigmaOf& sigmaOf) {
     const std::size_t count = patches.size();
     if (!solver.batched()) {
       for (std::size_t i = 0; i < count; ++i) solveAlone(block, i);
@@ -80,7 +88,7 @@ struct BlockVertexSolver::Scratch {
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
         gather(first, used);
-        solve(block);
+        solve(block, sigmaOf);
         write(block, first, used);
         for (int lane = 0; lane < used; ++lane)
           if (mustSolveAlone(block, first + lane, lane)) {
@@ -116,7 +124,9 @@ struct BlockVertexSolver::Scratch {
 
   /// About its mass point a patch's right-hand side is small where the surface is flat, and so is what rounding does to
   /// the solution.
-  void solve(const BlockState& block) {
+  /// \param sigmaOf the patch's σn² over that in Sigma_n, from its Σrrᵀ.
+  template <typename SigmaOf>
+  void solve(const BlockState& block, const SigmaOf& sigmaOf) {
     const SymMat3<float> S = Sigma_n;
     PatchLanes& l = lanes;
     const bool promised = block.out.doubts != nullptr;
@@ -129,7 +139,7 @@ struct BlockVertexSolver::Scratch {
       const SymMat3<float> A{l.sum[0][i], l.sum[1][i], l.sum[2][i], l.sum[5][i], l.sum[6][i], l.sum[10][i]};
       l.mass.set(i, mass);
       l.system.b.set(i, Vec3f{l.sum[16][i], l.sum[17][i], l.sum[18][i]} - A * mass);
-      l.system.A.set(i, A + S * n);
+      l.system.A.set(i, A + S * (n * sigmaOf(A, n)));
     });
     solveLdlt(std::span<const NormalEquationsLanes<float>>(&l.system, 1), std::span<SolutionLanes<float>>(&l.step, 1),
               level);
@@ -202,6 +212,10 @@ struct BlockVertexSolver::Scratch {
       sampleAxis[k] = edgeAxis(e);
       samples.position[k] = vecCast<double>(crossings.place(edge)) - center;
       samples.row[k] = vecCast<double>(crossings.plane(edge));
+      if (noise == nullptr) continue;
+      const double own = noise->sigma[edge];
+      samples.variance[k] = own * own;
+      samples.weight[k] = std::max(noise->weight[edge], CrossingRows::kLeastWeight);
     }
     samples.features = {};
     if (const FeaturePlanes::Patch* feature = planes.find(i)) {
@@ -305,9 +319,11 @@ struct BlockVertexSolver::Scratch {
   const LatticeMap& map;
   const VertexSolver solver;
   const SimdLevel level;
-  const Mat3d linear;      ///< Of an affine map.
-  SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
+  const Mat3d linear;  ///< Of an affine map.
+  /// Of one normal, in lattice units: σn² G; or zero, if crossings have their own, which are in their rows.
+  SymMat3<float> Sigma_n;
   HermiteBlock hermite;
+  const std::unique_ptr<PlaneNoise> noise;  ///< Null: the source knows none.
   CrossingRows crossings;
   PatchSums patches;
   std::vector<SurfacePatch> forSource;  ///< The same patches.
@@ -318,8 +334,9 @@ struct BlockVertexSolver::Scratch {
   std::array<int, PatchSamples::kMax> sampleAxis;
 };
 
-BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, double sigmaNormal, double halfSize, SimdLevel level)
-    : mSource(source), mScratch(std::make_unique<Scratch>(source.map(), sigmaNormal, halfSize, level)) {}
+BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, const SigmaNormal& sigma, double halfSize,
+                                     SimdLevel level)
+    : mSource(source), mScratch(std::make_unique<Scratch>(source, sigma, halfSize, level)) {}
 
 BlockVertexSolver::~BlockVertexSolver() = default;
 
@@ -330,13 +347,20 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const EdgeIndex edges(signs);
   const Vec3d origin = blockOrigin(block);
   const CellMetric metric = blockMetric(mSource.map(), origin);
-  const double sigma = mScratch->solver.sigma();
-  mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
+  const SigmaNormal& sigma = mScratch->solver.sigma();
+  mScratch->Sigma_n = Scratch::matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());
   Scratch& scratch = *mScratch;
   if (index + kAhead < blocks.coords.size()) mSource.expect(blocks.coords[index + kAhead]);
   mSource.fillHermite(block, signs, edges, scratch.hermite);
   counts.crossings += topology.blocks[index].quadCount;
   counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
+  if (scratch.noise != nullptr) {
+    mSource.fillNoise(block, edges, scratch.hermite, *scratch.noise);
+    // From the data, σn takes its time: until the sums are known.
+    scratch.crossings.addNoise(*scratch.noise, scratch.hermite, edges, metric,
+                               sigma.ofPatches() ? 0 : sigma.variance());
+    if (!sigma.ofPatches()) scratch.Sigma_n = {};
+  }
   scratch.patches.list(topology.blocks[index], signs);
   scratch.patches.sum(scratch.crossings, edges, scratch.level);
   scratch.patches.listForSource(scratch.forSource);
@@ -350,7 +374,18 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
                          cellHalfSize(mSource.map(), block),
                          out,
                          counts};
-  forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state); });
+  // Each way of choosing σn has a function of its own, small enough for the compiler to do its best.
+  const auto solveWith = [&](const auto& sigmaOf) {
+    forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state, sigmaOf); });
+  };
+  if (!sigma.ofPatches()) {
+    solveWith([](const SymMat3<float>&, float) { return 1.0F; });
+  } else if (metric.identity) {
+    solveWith([&sigma](const SymMat3<float>& A, float n) { return sigma.variance(A, n); });
+  } else {
+    const SymMat3<float> H = Scratch::matrixCast(metric.inverseG());
+    solveWith([&sigma, H](const SymMat3<float>& A, float n) { return sigma.variance(A, n, H); });
+  }
 }
 
 }  // namespace pdc::detail

@@ -16,8 +16,8 @@ namespace pdc {
 namespace {
 
 void checkOptions(const ContourOptions& options) {
-  if (!(options.sigmaNormal >= 0))
-    throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", options.sigmaNormal));
+  if (options.sigmaNormal && !(*options.sigmaNormal >= 0))
+    throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", *options.sigmaNormal));
   if (options.threads < 0)
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
 }
@@ -63,6 +63,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .drawnIn = certified.drawnIn,
                .forcedDiagonals = certified.forcedDiagonals,
                .fans = certified.fans,
+               .normalNoise = counts.normalNoise,
                .uncertified = certified.uncertified};
   return mesh;
 }

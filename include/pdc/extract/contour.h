@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "pdc/mesh/mesh.h"
 #include "pdc/sample/hermite_source.h"
@@ -14,11 +15,17 @@ enum class Placement {
   kFree,       ///< Anywhere within 1.5 voxels of its cell; faces may intersect.
 };
 
+/// σn where nothing else is said.
+inline constexpr double kDefaultSigmaNormal = 0.05;
+
 struct ContourOptions {
   /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric
   /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
   /// experiments.
-  double sigmaNormal = 0.05;
+  /// Empty: from the data. The noise of the normals is estimated as by normalNoise() from up to 64 blocks; creases get
+  /// that as σn, at least 0.02, and patches whose normals agree to within it about 0.7 or more, which halves the error of
+  /// curvature and noise there. A function has no noise. Planes that come from distances have a σn of their own.
+  std::optional<double> sigmaNormal = kDefaultSigmaNormal;
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
@@ -50,6 +57,7 @@ struct ContourReport {
   std::size_t drawnIn = 0;                 ///< Vertices drawn back into their cells all the way.
   std::size_t forcedDiagonals = 0;         ///< Quads split along the diagonal of larger quadric error.
   std::size_t fans = 0;                    ///< Quads replaced by triangles about the crossing of their lattice edge.
+  double normalNoise = 0;                  ///< Estimated where σn came from the data; else 0.
   std::size_t uncertified = 0;             ///< Pairs of faces that still meet where they should not: see contour().
 };
 
