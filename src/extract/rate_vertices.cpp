@@ -34,6 +34,7 @@ struct Planes {
   std::array<Vec3d, kMax> normal;
   std::array<double, kMax> distance;
   int size = 0;
+  double known = 0;  ///< Variance of the distances as far as the source knows it, in voxels squared.
 
   void add(const Vec3d& n, double d) {
     if (n == Vec3d{} || size == kMax) return;
@@ -61,7 +62,8 @@ Rating rate(const Planes& planes) {
     ++rank;
     inverses += 1 / value;
   }
-  if (planes.size > rank) rating.variance = static_cast<float>(squares / (planes.size - rank) * inverses);
+  const double seen = planes.size > rank ? squares / (planes.size - rank) : 0;
+  rating.variance = static_cast<float>(std::max(seen, planes.known) * inverses);
   rating.rank = static_cast<std::uint8_t>(std::max(rank, 1));
   rating.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
   return rating;
@@ -70,7 +72,8 @@ Rating rate(const Planes& planes) {
 /// Rates the vertices of one block after another. For one thread; large: keep it off the stack.
 class BlockRater {
  public:
-  explicit BlockRater(const HermiteSource& source) : mSource(source), mMap(source.map()) {}
+  explicit BlockRater(const HermiteSource& source)
+      : mSource(source), mMap(source.map()), mNoise(source.knowsSigma() ? std::make_unique<PlaneNoise>() : nullptr) {}
 
   void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const Mesh& mesh,
            Buffer<Rating>& ratings) {
@@ -78,6 +81,7 @@ class BlockRater {
     const Vec3d origin = blockOrigin(block);
     const CellMetric metric = blockMetric(mMap, origin);
     mSource.fillHermite(block, signs, edges, mHermite);
+    if (mNoise != nullptr) mSource.fillNoise(block, edges, mHermite, *mNoise);
     mPatches.list(topology, signs);
     mPatches.listForSource(mForSource);
     mFeatures.clear();
@@ -87,6 +91,7 @@ class BlockRater {
       const std::uint64_t vertex = topology.firstVertex + i;
       const Vec3d at = vecCast<double>(mesh.positions[vertex]);
       Planes planes;
+      if (mNoise != nullptr) planes.known = meanVariance(mPatches.patch(i), edges);
       const auto add = [&](const Vec3d& n, const Vec3d& point) {
         planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
       };
@@ -101,6 +106,17 @@ class BlockRater {
   }
 
  private:
+  /// Of the patch's crossings. A normal's noise is that of the values over the gradient, near enough, and that of the
+  /// distance too.
+  [[nodiscard]] double meanVariance(const Patch& patch, const EdgeIndex& edges) const {
+    double sum = 0;
+    for (int k = 0; k < patch.edges.count; ++k) {
+      const double s = mNoise->sigma[edges.numbers()[patch.slot() + kEdgeSlot[patch.edges.edge[k]]]];
+      sum += s * s;
+    }
+    return sum / patch.edges.count;
+  }
+
   template <typename Add>
   void addCrossings(const Patch& patch, const EdgeIndex& edges, const Add& add) const {
     for (int k = 0; k < patch.edges.count; ++k) {
@@ -114,6 +130,7 @@ class BlockRater {
 
   const HermiteSource& mSource;
   const LatticeMap& mMap;
+  const std::unique_ptr<PlaneNoise> mNoise;  ///< Null: the source knows none.
   HermiteBlock mHermite;
   PatchSums mPatches;
   std::vector<SurfacePatch> mForSource;
