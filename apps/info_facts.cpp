@@ -56,7 +56,7 @@ Json sceneFacts(const std::filesystem::path& path) {
   Json cells = Json::array();
   for (int axis = 0; axis < 3; ++axis)
     cells.push_back(cellsAlong(scene.box.hi[axis] - scene.box.lo[axis], scene.voxelSize));
-  const double sigma = scene.sigmaNormal.value_or(ContourOptions{}.sigmaNormal);
+  const double sigma = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
   Json facts{{"kind", "scene"}};
   if (!scene.name.empty()) facts["name"] = scene.name;
   facts.update({{"box_lo", toJson(scene.box.lo)},

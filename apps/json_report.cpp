@@ -29,7 +29,7 @@ std::size_t peakMemoryBytes() {
 }  // namespace
 
 Json toJson(const MeshRequest& request, const MeshRun& run) {
-  const double sigma = run.options.sigmaNormal;
+  const std::optional<double> sigma = run.options.sigmaNormal;
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
   return {{"input", request.input.string()},
@@ -50,7 +50,12 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"fans", run.contour.fans},
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
-          {"sigma_n", std::isinf(sigma) ? Json("inf") : Json(sigma)},
+          {"sigma_n", !sigma               ? Json("auto")
+                      : std::isinf(*sigma) ? Json("inf")
+                                           : Json(*sigma)},
+          {"normal_noise", run.contour.normalNoise},
+          {"sigma_grid", request.sigmaGrid ? Json(*request.sigmaGrid) : Json()},
+          {"weight_grid", request.weightGrid ? Json(*request.weightGrid) : Json()},
           {"placement", request.placement},
           {"hermite", run.hermite},
           {"value_noise_voxels", run.valueNoise},

@@ -67,6 +67,9 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
     return openMeshInput(request);
   }();
   run.secondsRead = stopwatch.lap();
+  if (input.refusedNoise > 0)
+    warn(run,
+         fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
   run.iso = input.iso;
   run.hermite = input.hermite;
   run.valueNoise = input.valueNoise;
@@ -92,6 +95,7 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
              run.bytesWritten);
   if (run.hermite == "distance")
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
+  if (!run.options.sigmaNormal) fmt::print("noise of the normals {:.2g}\n", run.contour.normalNoise);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
              run.secondsContour, run.secondsWrite);
 }

@@ -29,20 +29,34 @@ HermiteMode hermiteMode(const MeshRequest& request) {
   return request.hermite == "distance" ? HermiteMode::kDistance : HermiteMode::kAuto;
 }
 
+/// A grid that says something of another one's values, or null.
+openvdb::GridBase::ConstPtr readCompanion(const MeshRequest& request, const std::optional<std::string>& name,
+                                          const openvdb::GridBase& grid, const char* option) {
+  if (!name) return nullptr;
+  if (name->empty()) throw Error(fmt::format("{}: the name is empty", option));
+  if (*name == grid.getName()) throw Error(fmt::format("{}: '{}' is the grid itself", option, *name));
+  return readVdbGrid(request.input, *name);
+}
+
 MeshInput openGrid(const MeshRequest& request) {
   const auto grid = readVdbGrid(request.input, request.grid.value_or(""));
-  auto source = std::make_unique<GridSource>(grid, GridSourceOptions{.iso = request.iso,
-                                                                     .open = request.open,
-                                                                     .acceptNonFinite = request.nan == "outside",
-                                                                     .hermite = hermiteMode(request)});
+  auto source = std::make_unique<GridSource>(
+      grid, GridSourceOptions{.iso = request.iso,
+                              .open = request.open,
+                              .acceptNonFinite = request.nan == "outside",
+                              .hermite = hermiteMode(request),
+                              .sigma = readCompanion(request, request.sigmaGrid, *grid, "--sigma-grid"),
+                              .weight = readCompanion(request, request.weightGrid, *grid, "--weight-grid")});
   const double iso = source->iso(), noise = source->valueNoise();
+  const std::size_t refused = source->refusedNoise();
   const auto hermite = source->usesDistances() ? "distance" : "gradient";
   return {.source = std::move(source),
           .iso = iso,
-          .sigmaNormal = ContourOptions{}.sigmaNormal,
+          .sigmaNormal = kDefaultSigmaNormal,
           .field = nullptr,
           .hermite = hermite,
           .valueNoise = noise,
+          .refusedNoise = refused,
           .whyEmpty = [path = request.input, name = grid->getName(), iso] { return whyGridIsEmpty(path, name, iso); }};
 }
 
@@ -61,7 +75,7 @@ MeshInput openScene(const MeshRequest& request) {
   const FieldPtr field = source->levelField();
   return {.source = std::move(source),
           .iso = iso,
-          .sigmaNormal = scene.sigmaNormal.value_or(ContourOptions{}.sigmaNormal),
+          .sigmaNormal = scene.sigmaNormal.value_or(kDefaultSigmaNormal),
           .field = field,
           .hermite = "function",
           .whyEmpty = [iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); }};

@@ -18,6 +18,7 @@ struct MeshInput {
   FieldPtr field;          ///< Of a scene: zero on the surface that the mesh should have. Null of a grid.
   std::string hermite;     ///< Where planes come from: gradient, distance or function.
   double valueNoise = 0;   ///< In voxels, as far as it was estimated.
+  std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite.
   std::function<std::string()> whyEmpty;  ///< Says in a clause why there is no surface; may read the file again.
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "input_kind.h"
+#include "io/mesh_format.h"
 #include "numbers.h"
 #include "pdc/error.h"
 
@@ -25,10 +26,18 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
           "Isovalue (level sets and scenes: 0, fog volumes: 0.5)")
       ->type_name("V")
       ->group(group);
-  addReal(
-      command, "--sigma-n", request.sigmaNormal, [](double v) { return v >= 0; }, "a number >= 0 or inf",
-      "Assumed noise of the unit normals (0.05)")
-      ->type_name("S|inf")
+  const auto sigma = [&request](const std::string& text) {
+    const std::vector<double> value = parseReals(text, ',');
+    const bool number = value.size() == 1 && value[0] >= 0;
+    if (text != "auto" && !number)
+      throw CLI::ValidationError("--sigma-n", fmt::format("'{}' is not a number >= 0 or inf, or auto", text));
+    request.sigmaFromData = !number;
+    request.sigmaNormal = number ? std::optional(value[0]) : std::nullopt;
+  };
+  command
+      .add_option_function<std::string>("--sigma-n", sigma,
+                                        "Assumed noise of the unit normals (0.05); auto: from the data")
+      ->type_name("S|inf|auto")
       ->group(group);
   command
       .add_option("--placement", request.placement,
@@ -40,8 +49,25 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
+  command.add_flag("--confidence", request.confidence, "A confidence from 0 to 1 per vertex, in a .ply")->group(group);
+  command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner), in a .ply")->group(group);
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
+
+}  // namespace
+
+void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
+  command
+      .add_option("--sigma-grid", request.sigmaGrid,
+                  "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+      ->type_name("NAME")
+      ->group(group);
+}
+
+namespace {
 
 void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
@@ -58,6 +84,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("MODE")
       ->check(CLI::IsMember({"auto", "gradient", "distance"}))
       ->group(grids);
+  addNoiseGrids(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -80,10 +107,12 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 }  // namespace
 
 ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
-  return {.sigmaNormal = sigmaNormal.value_or(assumedSigma),
+  return {.sigmaNormal = sigmaFromData ? std::nullopt : std::optional(sigmaNormal.value_or(assumedSigma)),
           .placement = kPlacements.at(placement),
           .triangles = triangles,
           .normals = normals,
+          .confidence = confidence,
+          .ranks = rank,
           .threads = threads.value_or(0)};
 }
 
@@ -111,11 +140,16 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
       refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
+      refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
+      refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       break;
     case InputKind::kOther:
       throw Error(
           fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
   }
+  const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
+  refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");
+  refuseOther(request.rank && otherThanPly(), "--rank", ".ply outputs");
   if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
   if (request.json.empty()) return;
   if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");

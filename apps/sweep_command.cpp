@@ -61,7 +61,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const std::string parameter = request.parameter();
   SweepInput first = openInput(request, request.mesh, reference);
-  SweepOptions options{.contour = request.mesh.contourOptions(ContourOptions{}.sigmaNormal), .truth = {}};
+  SweepOptions options{.contour = request.mesh.contourOptions(kDefaultSigmaNormal), .truth = {}};
   if (parameter == "sigma_n") {
     options.truth = std::move(first.truth);
     return sweepSigma(*first.source, request.values(), options, monitor);

@@ -61,6 +61,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
       ->check(CLI::IsMember({"certified", "cell", "free"}));
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
+  addNoiseGrids(command, mesh, "OPTIONS");
   command
       .add_option("--reference", request.reference,
                   "What the surface should be, a mesh or a scene\n(a scene that is swept is its own)")

@@ -74,4 +74,21 @@ GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pos
   return out;
 }
 
+GridInput makeGradedGrid(const Shape& shape, const Pose& pose, double noise, unsigned seed) {
+  GridInput out = makeGrid("exact", shape, pose, 0, seed);
+  out.sigma = openvdb::FloatGrid::create(static_cast<float>(noise));
+  out.sigma->setTransform(out.grid->transformPtr());
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const auto box = out.grid->evalActiveVoxelBoundingBox();
+  const double low = box.min().x(), high = box.max().x();
+  auto accessor = out.sigma->getAccessor();
+  for (auto it = out.grid->beginValueOn(); it; ++it) {
+    const double sigma = noise * (it.getCoord().x() - low) / (high - low);
+    it.setValue(*it + static_cast<float>(sigma * normal(random)));
+    accessor.setValue(it.getCoord(), static_cast<float>(sigma));
+  }
+  return out;
+}
+
 }  // namespace pdc::eval

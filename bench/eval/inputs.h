@@ -16,11 +16,16 @@ namespace pdc::eval {
 struct GridInput {
   openvdb::FloatGrid::Ptr grid;
   double iso;
+  openvdb::FloatGrid::Ptr sigma = nullptr;  ///< Standard deviation of each value, if it is not the same for all.
 };
 
 /// A level set of half width 3 on the lattice of integer points. \param noise standard deviation of what is added to
 /// every active value, in voxels; \param seed of it.
 [[nodiscard]] GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise,
                                  unsigned seed);
+
+/// Exact distances with noise that grows along x, from 0 where the solid begins to `noise` where it ends, with a σ
+/// grid.
+[[nodiscard]] GridInput makeGradedGrid(const Shape& shape, const Pose& pose, double noise, unsigned seed);
 
 }  // namespace pdc::eval

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "eval/nearest.h"
 
@@ -69,14 +71,16 @@ Vec3d surfaceNormal(const Shape& shape, const Pose& pose, const Vec3d& p) {
   return g * (1 / length(g));
 }
 
-void measureVertices(const Mesh& mesh, const Shape& shape, const Pose& pose, Figures& f) {
-  double sum = 0;
-  for (const Vec3f& v : mesh.positions) {
-    const double d = std::abs(shape.distance(pose.toShape(vecCast<double>(v)))) * pose.size;
-    sum += d * d;
-    f.vertexMax = std::max(f.vertexMax, d);
+void measureVertices(const Mesh& mesh, const Shape& shape, const Pose& pose, double fromX, Figures& f) {
+  const std::vector<double> errors = vertexErrors(mesh, shape, pose);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!(double{mesh.positions[i].x} > fromX)) continue;
+    sum += errors[i] * errors[i];
+    count += 1;
+    f.vertexMax = std::max(f.vertexMax, errors[i]);
   }
-  if (!mesh.positions.empty()) f.vertexRms = std::sqrt(sum / static_cast<double>(mesh.positions.size()));
+  if (count > 0) f.vertexRms = std::sqrt(sum / count);
 }
 
 void measureNormals(const std::vector<Triangle>& triangles, const Mesh& mesh, const Shape& shape, const Pose& pose,
@@ -135,12 +139,43 @@ double edgeF1(const std::vector<Segment>& sharp, const std::vector<Vec3d>& truth
   return 2 * precision * recall / (precision + recall);
 }
 
+/// Where each value comes when they are sorted; equal ones in their own order.
+std::vector<double> places(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return values[i] < values[k]; });
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<double>(i);
+  return out;
+}
+
 }  // namespace
 
-Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
+std::vector<double> vertexErrors(const Mesh& mesh, const Shape& shape, const Pose& pose) {
+  std::vector<double> errors;
+  for (const Vec3f& v : mesh.positions)
+    errors.push_back(std::abs(shape.distance(pose.toShape(vecCast<double>(v)))) * pose.size);
+  return errors;
+}
+
+double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> u = places(a), v = places(b);
+  const double mean = (static_cast<double>(a.size()) - 1) / 2;
+  double both = 0, own = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += (u[i] - mean) * (v[i] - mean);
+    own += (u[i] - mean) * (u[i] - mean);
+  }
+  return own > 0 ? both / own : 0;
+}
+
+Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool halves = part == Part::kHalves;
+  const double fromX = halves ? pose.offset.x : -kInfinity, toX = halves ? pose.offset.x : kInfinity;
   Figures f;
   const std::vector<Triangle> triangles = allTriangles(mesh);
-  measureVertices(mesh, shape, pose, f);
+  measureVertices(mesh, shape, pose, fromX, f);
   measureNormals(triangles, mesh, shape, pose, f);
   if (shape.edges.empty() && shape.corners.empty()) return f;
   Nearest surface(Figures::kFar);
@@ -148,7 +183,8 @@ Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
     const Corners c = corners(mesh, t);
     surface.add({c.p[0], c.p[1], c.p[2]});
   }
-  const std::vector<Vec3d> truth = edgePoints(shape.edges, pose);
+  std::vector<Vec3d> truth = edgePoints(shape.edges, pose);
+  std::erase_if(truth, [&](const Vec3d& p) { return !(p.x < toX); });
   double sum = 0;
   for (const Vec3d& p : truth) {
     const double d = surface.distance(p);
@@ -156,7 +192,8 @@ Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose) {
     f.edgeMax = std::max(f.edgeMax, d);
   }
   if (!truth.empty()) f.edgeRms = std::sqrt(sum / static_cast<double>(truth.size()));
-  for (const Vec3d& c : shape.corners) f.cornerMax = std::max(f.cornerMax, surface.distance(pose.toWorld(c)));
+  for (const Vec3d& c : shape.corners)
+    if (pose.toWorld(c).x < toX) f.cornerMax = std::max(f.cornerMax, surface.distance(pose.toWorld(c)));
   f.edgeF1 = edgeF1(sharpEdges(triangles, mesh), truth, shape, pose);
   return f;
 }

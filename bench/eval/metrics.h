@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "eval/shapes.h"
 #include "pdc/mesh/mesh.h"
 
@@ -17,6 +19,15 @@ struct Figures {
   static constexpr double kFar = 2, kAway = 2, kSharp = 20, kNear = 0.1;
 };
 
-[[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose);
+/// Distance of each vertex from the surface, in voxels.
+[[nodiscard]] std::vector<double> vertexErrors(const Mesh& mesh, const Shape& shape, const Pose& pose);
+
+/// Spearman's: the correlation of the places that values have when they are sorted. \pre as many of both
+[[nodiscard]] double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b);
+
+/// What is measured: everything, or vertices beyond the solid's middle along x and edges and corners before it.
+enum class Part { kAll, kHalves };
+
+[[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part = Part::kAll);
 
 }  // namespace pdc::eval

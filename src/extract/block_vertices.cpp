@@ -15,18 +15,8 @@
 namespace pdc::detail {
 namespace {
 
-Vec3d toVec3d(const Coord& c) { return {double(c[0]), double(c[1]), double(c[2])}; }
-
 /// Blocks between asking for a block's data and using it: half a microsecond or more.
 constexpr std::size_t kAhead = 4;
-
-/// Only a map that is not affine has a metric that changes from block to block; within one it is taken as constant.
-CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
-  if (map.affine()) return CellMetric(map.jacobian({}), map.voxelSize());
-  constexpr double kMiddle = kBlockSize / 2.0;
-  const Mat3d J = map.jacobian(origin + Vec3d{kMiddle, kMiddle, kMiddle});
-  return CellMetric(J, std::cbrt(std::abs(J.determinant())));
-}
 
 /// Half the size of the part of a block's cells whose points stay well within the cell when their world coordinates are
 /// rounded to single precision.
@@ -79,10 +69,18 @@ struct PatchLanes {
 /// Vertices are solved a register's worth at once, in single precision about their mass points. Those that leave their
 /// bounds, and all where σn is too small for single precision, are solved in double.
 struct BlockVertexSolver::Scratch {
-  Scratch(const LatticeMap& m, double sigmaNormal, double halfSize, SimdLevel l)
-      : map(m), solver(sigmaNormal, halfSize), level(l), linear(m.affine() ? m.jacobian({}) : Mat3d{}) {}
+  Scratch(const HermiteSource& source, const SigmaNormal& sigma, double halfSize, SimdLevel l)
+      : map(source.map()),
+        solver(sigma, halfSize),
+        level(l),
+        linear(map.affine() ? map.jacobian({}) : Mat3d{}),
+        noise(source.knowsNoise() ? std::make_unique<PlaneNoise>() : nullptr) {
+    samples.noisy = noise != nullptr;
+  }
 
-  void run(const BlockState& block) {
+  /// \param sigmaOf see solve().
+  template <typename SigmaOf>
+  void run(const BlockState& block, const SigmaOf& sigmaOf) {
     const std::size_t count = patches.size();
     if (!solver.batched()) {
       for (std::size_t i = 0; i < count; ++i) solveAlone(block, i);
@@ -90,7 +88,7 @@ struct BlockVertexSolver::Scratch {
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
         gather(first, used);
-        solve(block);
+        solve(block, sigmaOf);
         write(block, first, used);
         for (int lane = 0; lane < used; ++lane)
           if (mustSolveAlone(block, first + lane, lane)) {
@@ -126,7 +124,9 @@ struct BlockVertexSolver::Scratch {
 
   /// About its mass point a patch's right-hand side is small where the surface is flat, and so is what rounding does to
   /// the solution.
-  void solve(const BlockState& block) {
+  /// \param sigmaOf the patch's σn² over that in Sigma_n, from its Σrrᵀ.
+  template <typename SigmaOf>
+  void solve(const BlockState& block, const SigmaOf& sigmaOf) {
     const SymMat3<float> S = Sigma_n;
     PatchLanes& l = lanes;
     const bool promised = block.out.doubts != nullptr;
@@ -139,7 +139,7 @@ struct BlockVertexSolver::Scratch {
       const SymMat3<float> A{l.sum[0][i], l.sum[1][i], l.sum[2][i], l.sum[5][i], l.sum[6][i], l.sum[10][i]};
       l.mass.set(i, mass);
       l.system.b.set(i, Vec3f{l.sum[16][i], l.sum[17][i], l.sum[18][i]} - A * mass);
-      l.system.A.set(i, A + S * n);
+      l.system.A.set(i, A + S * (n * sigmaOf(A, n)));
     });
     solveLdlt(std::span<const NormalEquationsLanes<float>>(&l.system, 1), std::span<SolutionLanes<float>>(&l.step, 1),
               level);
@@ -194,23 +194,9 @@ struct BlockVertexSolver::Scratch {
     }
   }
 
-  /// Lists the block's patches for the source. \pre patches are listed
-  void listForSource() {
-    forSource.clear();
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      forSource.push_back({patches.patch(i).cell, static_cast<std::uint16_t>(patches.patch(i).edges.bits())});
-  }
-
-  /// What the source knows of patch i beyond its crossings, or null.
-  [[nodiscard]] const FeaturePlanes::Patch* featureOf(std::size_t i) const {
-    const auto it = std::lower_bound(planes.patches.begin(), planes.patches.end(), i,
-                                     [](const FeaturePlanes::Patch& p, std::size_t n) { return p.patch < n; });
-    return it != planes.patches.end() && it->patch == i ? &*it : nullptr;
-  }
-
   [[nodiscard]] bool mustSolveAlone(const BlockState& block, std::size_t i, int lane) const {
     const Patch& patch = patches.patch(i);
-    if (featureOf(i) != nullptr) return true;
+    if (planes.find(i) != nullptr) return true;
     const bool promised = block.out.doubts != nullptr;
     const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
     return lanes.step.solved[lane] == 0 || (promised && patch.strict) || !(lanes.reach[lane] <= limit);
@@ -226,9 +212,13 @@ struct BlockVertexSolver::Scratch {
       sampleAxis[k] = edgeAxis(e);
       samples.position[k] = vecCast<double>(crossings.place(edge)) - center;
       samples.row[k] = vecCast<double>(crossings.plane(edge));
+      if (noise == nullptr) continue;
+      const double own = noise->sigma[edge];
+      samples.variance[k] = own * own;
+      samples.weight[k] = std::max(noise->weight[edge], CrossingRows::kLeastWeight);
     }
     samples.features = {};
-    if (const FeaturePlanes::Patch* feature = featureOf(i)) {
+    if (const FeaturePlanes::Patch* feature = planes.find(i)) {
       // About the centre of the cell.
       features.assign(planes.of(*feature).begin(), planes.of(*feature).end());
       for (FeaturePlanes::Plane& p : features) p.point -= vecCast<float>(center);
@@ -329,9 +319,11 @@ struct BlockVertexSolver::Scratch {
   const LatticeMap& map;
   const VertexSolver solver;
   const SimdLevel level;
-  const Mat3d linear;      ///< Of an affine map.
-  SymMat3<float> Sigma_n;  ///< Of one normal, in lattice units: σn² G.
+  const Mat3d linear;  ///< Of an affine map.
+  /// Of one normal, in lattice units: σn² G; or zero, if crossings have their own, which are in their rows.
+  SymMat3<float> Sigma_n;
   HermiteBlock hermite;
+  const std::unique_ptr<PlaneNoise> noise;  ///< Null: the source knows none.
   CrossingRows crossings;
   PatchSums patches;
   std::vector<SurfacePatch> forSource;  ///< The same patches.
@@ -342,8 +334,9 @@ struct BlockVertexSolver::Scratch {
   std::array<int, PatchSamples::kMax> sampleAxis;
 };
 
-BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, double sigmaNormal, double halfSize, SimdLevel level)
-    : mSource(source), mScratch(std::make_unique<Scratch>(source.map(), sigmaNormal, halfSize, level)) {}
+BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, const SigmaNormal& sigma, double halfSize,
+                                     SimdLevel level)
+    : mSource(source), mScratch(std::make_unique<Scratch>(source, sigma, halfSize, level)) {}
 
 BlockVertexSolver::~BlockVertexSolver() = default;
 
@@ -352,18 +345,25 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const Coord& block = blocks.coords[index];
   const BlockSigns& signs = blocks.signs[index];
   const EdgeIndex edges(signs);
-  const Vec3d origin = toVec3d({block[0] * kBlockSize, block[1] * kBlockSize, block[2] * kBlockSize});
+  const Vec3d origin = blockOrigin(block);
   const CellMetric metric = blockMetric(mSource.map(), origin);
-  const double sigma = mScratch->solver.sigma();
-  mScratch->Sigma_n = Scratch::matrixCast(metric.G * (sigma * sigma));
+  const SigmaNormal& sigma = mScratch->solver.sigma();
+  mScratch->Sigma_n = Scratch::matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());
   Scratch& scratch = *mScratch;
   if (index + kAhead < blocks.coords.size()) mSource.expect(blocks.coords[index + kAhead]);
   mSource.fillHermite(block, signs, edges, scratch.hermite);
   counts.crossings += topology.blocks[index].quadCount;
   counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
+  if (scratch.noise != nullptr) {
+    mSource.fillNoise(block, edges, scratch.hermite, *scratch.noise);
+    // From the data, σn takes its time: until the sums are known.
+    scratch.crossings.addNoise(*scratch.noise, scratch.hermite, edges, metric,
+                               sigma.ofPatches() ? 0 : sigma.variance());
+    if (!sigma.ofPatches()) scratch.Sigma_n = {};
+  }
   scratch.patches.list(topology.blocks[index], signs);
   scratch.patches.sum(scratch.crossings, edges, scratch.level);
-  scratch.listForSource();
+  scratch.patches.listForSource(scratch.forSource);
   scratch.planes.clear();
   mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.forSource, scratch.planes);
   const BlockState state{static_cast<std::int32_t>(index),
@@ -374,7 +374,18 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
                          cellHalfSize(mSource.map(), block),
                          out,
                          counts};
-  forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state); });
+  // Each way of choosing σn has a function of its own, small enough for the compiler to do its best.
+  const auto solveWith = [&](const auto& sigmaOf) {
+    forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state, sigmaOf); });
+  };
+  if (!sigma.ofPatches()) {
+    solveWith([](const SymMat3<float>&, float) { return 1.0F; });
+  } else if (metric.identity) {
+    solveWith([&sigma](const SymMat3<float>& A, float n) { return sigma.variance(A, n); });
+  } else {
+    const SymMat3<float> H = Scratch::matrixCast(metric.inverseG());
+    solveWith([&sigma, H](const SymMat3<float>& A, float n) { return sigma.variance(A, n, H); });
+  }
 }
 
 }  // namespace pdc::detail

@@ -20,6 +20,7 @@ struct VertexError {
 
 struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
+  double normalNoise = 0;  ///< See ContourReport; the same for all.
 
   VertexCounts& operator+=(const VertexCounts& c) {
     crossings += c.crossings;
@@ -43,7 +44,7 @@ struct VertexOutput {
 class BlockVertexSolver {
  public:
   /// \param halfSize see VertexSolver.
-  BlockVertexSolver(const HermiteSource& source, double sigmaNormal, double halfSize, SimdLevel level);
+  BlockVertexSolver(const HermiteSource& source, const SigmaNormal& sigma, double halfSize, SimdLevel level);
   ~BlockVertexSolver();
   BlockVertexSolver(const BlockVertexSolver&) = delete;
   BlockVertexSolver& operator=(const BlockVertexSolver&) = delete;

@@ -9,14 +9,15 @@
 #include "extract/block_topology.h"
 #include "extract/certify.h"
 #include "extract/fill_mesh.h"
+#include "extract/rate_vertices.h"
 #include "with_threads.h"
 
 namespace pdc {
 namespace {
 
 void checkOptions(const ContourOptions& options) {
-  if (!(options.sigmaNormal >= 0))
-    throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", options.sigmaNormal));
+  if (options.sigmaNormal && !(*options.sigmaNormal >= 0))
+    throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", *options.sigmaNormal));
   if (options.threads < 0)
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
 }
@@ -48,6 +49,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
       fillMesh(source, blocks, topology, options, mesh, promised ? &doubts : nullptr, monitor);
   detail::CertifyCounts certified;
   if (promised) certified = certify(source, blocks, topology, doubts, mesh, monitor);
+  if (options.confidence || options.ranks) rateVertices(source, blocks, topology, options, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),
@@ -61,6 +63,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .drawnIn = certified.drawnIn,
                .forcedDiagonals = certified.forcedDiagonals,
                .fans = certified.fans,
+               .normalNoise = counts.normalNoise,
                .uncertified = certified.uncertified};
   return mesh;
 }

@@ -1,5 +1,7 @@
 #include "extract/crossing_rows.h"
 
+#include <algorithm>
+
 #include "math/lane_loops.h"
 
 namespace pdc::detail {
@@ -37,6 +39,23 @@ std::size_t CrossingRows::fill(const HermiteBlock& hermite, const EdgeIndex& edg
     }
   });
   return withoutNormal;
+}
+
+void CrossingRows::addNoise(const PlaneNoise& noise, const HermiteBlock& hermite, const EdgeIndex& edges,
+                            const CellMetric& metric, double variance) {
+  const SymMat3<double> G = metric.G;
+  const std::array<Vec3f, 3> column{vecCast<float>(Vec3d{G.xx, G.xy, G.xz}), vecCast<float>(Vec3d{G.xy, G.yy, G.yz}),
+                                    vecCast<float>(Vec3d{G.xz, G.yz, G.zz})};
+  const auto common = static_cast<float>(variance);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
+      Float16& row = mRow[i + 1];
+      const float own = common + noise.sigma[i] * noise.sigma[i], w = std::max(noise.weight[i], kLeastWeight);
+      for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j) row[4 * k + j] = w * (row[4 * k + j] + own * column[k][j]);
+      for (int j = 0; j < 3; ++j) row[12 + j] = hermite.t[i] * row[4 * axis + j];
+      for (int k = 0; k < 4; ++k) row[4 * k + 3] *= w;
+    }
 }
 
 }  // namespace pdc::detail

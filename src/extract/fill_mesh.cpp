@@ -43,8 +43,10 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
   if (options.normals) mesh.normals.resize(topology.vertexCount);
   mesh.quads.resize(topology.quadCount);
   const double halfSize = options.placement == Placement::kCell ? kCellHalfSize : kFreeHalfSize;
+  const SigmaNormal sigma =
+      options.sigmaNormal ? SigmaNormal(*options.sigmaNormal) : SigmaNormal::fromData(source, blocks, monitor);
   tbb::enumerable_thread_specific<BlockVertexSolver> solvers(
-      [&] { return BlockVertexSolver(source, options.sigmaNormal, halfSize, level); });
+      [&] { return BlockVertexSolver(source, sigma, halfSize, level); });
   tbb::enumerable_thread_specific<Doubts> found;
   tbb::combinable<VertexCounts> counts;
   const BlockFaceWriter faces(blocks, topology, source.map(), mesh.quads.data(), level);
@@ -83,7 +85,7 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
               [](const LooseVertex& a, const LooseVertex& b) { return a.vertex < b.vertex; });
     std::sort(doubts->quads.begin(), doubts->quads.end());
   }
-  VertexCounts total;
+  VertexCounts total{.normalNoise = sigma.noise()};
   counts.combine_each([&](const VertexCounts& c) { total += c; });
   return total;
 }

@@ -60,6 +60,11 @@ void PatchSums::list(const BlockTopology& topology, const BlockSigns& signs) {
     }
 }
 
+void PatchSums::listForSource(std::vector<SurfacePatch>& out) const {
+  out.clear();
+  for (const Patch& p : mPatches) out.push_back({p.cell, static_cast<std::uint16_t>(p.edges.bits())});
+}
+
 void PatchSums::sum(const CrossingRows& crossings, const EdgeIndex& edges, SimdLevel level) {
   mSums.resize(mPatches.size());
   mRhs.resize(mPatches.size());

@@ -6,6 +6,7 @@
 
 #include "extract/block_topology.h"
 #include "extract/crossing_rows.h"
+#include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
 
 namespace pdc::detail {
@@ -61,6 +62,9 @@ class PatchSums {
   void list(const BlockTopology& topology, const BlockSigns& signs);
   /// \param level changes no bit of it.
   void sum(const CrossingRows& crossings, const EdgeIndex& edges, SimdLevel level);
+
+  /// The same patches as a source takes them.
+  void listForSource(std::vector<SurfacePatch>& out) const;
 
   [[nodiscard]] std::size_t size() const { return mPatches.size(); }
   [[nodiscard]] const Patch& patch(std::size_t i) const { return mPatches[i]; }

@@ -40,12 +40,23 @@ CellMetric::CellMetric(const Mat3d& jacobian, double unit)
   }
 }
 
-VertexSolver::VertexSolver(double sigmaNormal, double halfSize) : mSigma(sigmaNormal), mHalfSize(halfSize) {}
+SymMat3<double> CellMetric::inverseG() const { return congruent(SymMat3<double>::identity(), inverse(M).transposed()); }
 
-bool VertexSolver::batched() const { return mSigma >= kMinBatchSigma && std::isfinite(mSigma); }
+CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin) {
+  if (map.affine()) return CellMetric(map.jacobian({}), map.voxelSize());
+  constexpr double kMiddle = kBlockSize / 2.0;
+  const Mat3d J = map.jacobian(origin + Vec3d{kMiddle, kMiddle, kMiddle});
+  return CellMetric(J, std::cbrt(std::abs(J.determinant())));
+}
+
+VertexSolver::VertexSolver(const SigmaNormal& sigma, double halfSize) : mSigma(sigma), mHalfSize(halfSize) {}
+
+bool VertexSolver::batched() const {
+  return mSigma.variance() >= kMinBatchSigma * kMinBatchSigma && std::isfinite(mSigma.variance());
+}
 
 SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& metric) const {
-  if (!samples.features.empty() && !std::isinf(mSigma)) return solveFeatures(samples, metric);
+  if (!samples.features.empty() && !std::isinf(mSigma.variance())) return solveFeatures(samples, metric);
   const double n = samples.size;
   Vec3d positions{};
   Quadric<double> q = Quadric<double>::zero();
@@ -54,17 +65,49 @@ SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& 
     q += planeQuadric(samples.position[i], samples.row[i]);
   }
   const Vec3d massPoint = positions * (1 / n);
-  if (std::isinf(mSigma)) return {massPoint, metric.G * n, Vec3d{}};
-  if (mSigma == 0) return solveClassical(q, massPoint, metric);
+  if (std::isinf(mSigma.variance())) return {massPoint, metric.G * n, Vec3d{}};
+  if (samples.noisy) return solveNoisy(samples, massPoint, metric);
+  if (mSigma.variance() == 0) return solveClassical(q, massPoint, metric);
 
   // The sum of probabilisticPlaneQuadric(position, row, Σn), which is the same for all samples.
-  const SymMat3<double> Sigma_n = metric.G * (mSigma * mSigma);
+  const double variance = varianceOf(q.A, n, metric);
+  const SymMat3<double> Sigma_n = metric.G * variance;
   q.A += Sigma_n * n;
   q.b += Sigma_n * positions;
 
   // About the mass point the right-hand side is small where the surface is flat, and so is what rounding does to it.
   const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
   if (!step) return solveClassical(q, massPoint, metric);  // σn² drowned in rounding.
+  SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
+  constrain(v, q.A, q.b);
+  v.halfGradient = q.halfGradient(v.x);
+  return v;
+}
+
+double VertexSolver::varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const {
+  if (!mSigma.ofPatches()) return mSigma.variance();
+  return metric.identity ? mSigma.variance(A, weight) : mSigma.variance(A, weight, metric.inverseG());
+}
+
+SolvedVertex VertexSolver::solveNoisy(const PatchSamples& samples, const Vec3d& massPoint,
+                                      const CellMetric& metric) const {
+  Quadric<double> q = Quadric<double>::zero();
+  Vec3d positions{};
+  double weight = 0;
+  for (int i = 0; i < samples.size; ++i) {
+    Quadric<double> plane = planeQuadric(samples.position[i], samples.row[i]);
+    const SymMat3<double> Sigma_n = metric.G * samples.variance[i];
+    plane.A += Sigma_n;
+    plane.b += Sigma_n * samples.position[i];
+    q += plane * samples.weight[i];
+    positions += samples.position[i] * samples.weight[i];
+    weight += samples.weight[i];
+  }
+  const SymMat3<double> Sigma_n = metric.G * varianceOf(q.A, weight, metric);
+  q.A += Sigma_n * weight;
+  q.b += Sigma_n * positions;
+  const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
+  if (!step) return solveClassical(q, massPoint, metric);
   SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
   constrain(v, q.A, q.b);
   v.halfGradient = q.halfGradient(v.x);

@@ -3,9 +3,12 @@
 #include <array>
 #include <span>
 
+#include "extract/sigma_normal.h"
 #include "pdc/extract/contour.h"
 #include "pdc/math/quadric.h"
 #include "pdc/sample/feature_planes.h"
+#include "pdc/sample/hermite_block.h"
+#include "pdc/sample/lattice_map.h"
 
 namespace pdc::detail {
 
@@ -16,9 +19,19 @@ struct CellMetric {
 
   double voxelSize;
   Mat3d M;
-  SymMat3<double> G;      ///< MᵀM.
+  SymMat3<double> G;  ///< MᵀM.
+  [[nodiscard]] SymMat3<double> inverseG() const;
   bool identity = false;  ///< True for the common case of a uniform, unrotated lattice, where M = G = I.
 };
+
+/// Of a block whose lowest point is `origin`. Only a map that is not affine has a metric that changes from block to
+/// block; within one it is taken as constant.
+[[nodiscard]] CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin);
+
+/// The lowest point of a block.
+[[nodiscard]] inline Vec3d blockOrigin(const Coord& block) {
+  return {double(kBlockSize) * block[0], double(kBlockSize) * block[1], double(kBlockSize) * block[2]};
+}
 
 /// Hermite data of one surface patch in lattice units about the centre of its cell.
 struct PatchSamples {
@@ -28,6 +41,9 @@ struct PatchSamples {
   /// where there is no normal.
   std::array<Vec3d, kMax> row;
   int size = 0;
+  /// What is known of each plane, if anything is: σn² besides the solver's, and its weight.
+  bool noisy = false;
+  std::array<double, kMax> variance, weight;
   /// Planes that take the place of those above, which then say only where the patch is; `point` from the centre too.
   std::span<const FeaturePlanes::Plane> features{};
   double featureSigma = 0;  ///< σn of them.
@@ -56,22 +72,26 @@ inline constexpr double kFreeHalfSize = 2.0;
 class VertexSolver {
  public:
   /// \param halfSize how far vertices may lie from the centre of their cell along an axis, in lattice units.
-  VertexSolver(double sigmaNormal, double halfSize);
+  VertexSolver(const SigmaNormal& sigma, double halfSize);
 
   [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
 
-  [[nodiscard]] double sigma() const { return mSigma; }
+  [[nodiscard]] const SigmaNormal& sigma() const { return mSigma; }
   [[nodiscard]] double halfSize() const { return mHalfSize; }
   /// True if σn is such that the free minimiser, A⁻¹ times the right-hand side about the mass point, may be found in
   /// single precision.
   [[nodiscard]] bool batched() const;
 
  private:
+  /// σn² of a patch whose planes sum up to A.
+  [[nodiscard]] double varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const;
+  [[nodiscard]] SolvedVertex solveNoisy(const PatchSamples& samples, const Vec3d& massPoint,
+                                        const CellMetric& metric) const;
   [[nodiscard]] SolvedVertex solveFeatures(const PatchSamples& samples, const CellMetric& metric) const;
   [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
   void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;
 
-  double mSigma;
+  SigmaNormal mSigma;
   double mHalfSize;
 };
 

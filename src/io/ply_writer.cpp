@@ -23,25 +23,37 @@ constexpr std::size_t kItemsPerChunk = 1 << 15;
 std::string header(const Mesh& mesh, bool ascii) {
   return fmt::format(
       "ply\nformat {} 1.0\ncomment pdc\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
+      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}{}{}"
       "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
       ascii ? "ascii" : "binary_little_endian", mesh.positions.size(),
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n",
+      mesh.confidence.empty() ? "" : "property float confidence\n", mesh.ranks.empty() ? "" : "property uchar rank\n",
       mesh.quads.size() + mesh.triangles.size(), plyIndexType(mesh.positions.size()));
 }
 
+/// Copies one value, if there is one per vertex. \returns where the next goes.
+template <typename T>
+char* put(const Buffer<T>& values, std::size_t i, char* to) {
+  if (values.empty()) return to;
+  std::memcpy(to, &values[i], sizeof(T));
+  return to + sizeof(T);
+}
+
 void writeVertices(const Mesh& mesh, AtomicFile& file) {
-  if (mesh.normals.empty()) {
+  const std::size_t stride = sizeof(Vec3f) + (mesh.normals.empty() ? 0 : sizeof(Vec3f)) +
+                             (mesh.confidence.empty() ? 0 : sizeof(float)) + (mesh.ranks.empty() ? 0 : 1);
+  if (stride == sizeof(Vec3f)) {
     file.write(mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
     return;
   }
   writeChunked(file, mesh.positions.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
-    constexpr std::size_t kStride = 2 * sizeof(Vec3f);
-    out.resize((end - begin) * kStride);
+    out.resize((end - begin) * stride);
     char* next = out.data();
-    for (std::size_t i = begin; i < end; ++i, next += kStride) {
-      std::memcpy(next, &mesh.positions[i], sizeof(Vec3f));
-      std::memcpy(next + sizeof(Vec3f), &mesh.normals[i], sizeof(Vec3f));
+    for (std::size_t i = begin; i < end; ++i) {
+      next = put(mesh.positions, i, next);
+      next = put(mesh.normals, i, next);
+      next = put(mesh.confidence, i, next);
+      next = put(mesh.ranks, i, next);
     }
   });
 }
@@ -69,12 +81,20 @@ void putVector(TextCursor& text, const Vec3f& v) {
 
 void writeVerticesAscii(const Mesh& mesh, AtomicFile& file) {
   writeChunked(file, mesh.positions.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
-    TextCursor text(out, (end - begin) * 6 * TextCursor::kMaxNumber);
+    TextCursor text(out, (end - begin) * 8 * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
       putVector(text, mesh.positions[i]);
       if (!mesh.normals.empty()) {
         text.put(' ');
         putVector(text, mesh.normals[i]);
+      }
+      if (!mesh.confidence.empty()) {
+        text.put(' ');
+        text.put(mesh.confidence[i]);
+      }
+      if (!mesh.ranks.empty()) {
+        text.put(' ');
+        text.put(std::uint32_t{mesh.ranks[i]});
       }
       text.put('\n');
     }

@@ -16,6 +16,9 @@
 namespace pdc::detail {
 namespace {
 
+/// Larger than values that a slope can be made of, in single precision.
+constexpr double kMostClamp = 1e38;
+
 /// Sorts and removes what is there twice.
 void sortUnique(std::vector<Coord>& blocks) {
   if (blocks.empty()) return;
@@ -58,7 +61,9 @@ class TypedGridSampler final : public GridSampler {
 
   TypedGridSampler(typename GridT::ConstPtr grid, const GridReading& reading)
       : mGrid(std::move(grid)), mReading(reading), mReader(reading), mTable(mGrid->tree()) {
-    const double low = -reading.clamp - reading.iso, high = reading.clamp - reading.iso;
+    // Finite even where nothing is clamped, so that infinite values are left out.
+    const double clamp = std::min(reading.clamp, kMostClamp);
+    const double low = -clamp - reading.iso, high = clamp - reading.iso;
     mLow = static_cast<float>(low + 1e-6 * std::abs(low));
     mHigh = static_cast<float>(high - 1e-6 * std::abs(high));
   }

@@ -9,6 +9,7 @@
 #include "sample/distance_planes.h"
 #include "sample/distance_probe.h"
 #include "sample/grid_sampler.h"
+#include "sample/noise_grids.h"
 
 namespace pdc {
 namespace {
@@ -55,6 +56,9 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
 /// noise of 0.1 voxel 0.05 to 0.07.
 constexpr double kSlopeError = 0.15;
 
+/// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
+constexpr double kMostNoise = 0.13;
+
 /// \returns nothing where crossings are all there is to take planes from.
 std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeDistance,
                                                    const detail::GridSampler& sampler, const LatticeMap& map) {
@@ -74,6 +78,7 @@ struct GridSource::Impl {
   LatticeMap map;
   std::unique_ptr<const detail::GridSampler> sampler;
   std::optional<detail::DistanceModel> distances;  ///< Nothing: crossings are all there is.
+  detail::NoiseGrids noise;
 };
 
 GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options) {
@@ -100,7 +105,8 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
   LatticeMap map = makeMap(grid->transform());
   const bool mayBeDistance = distance && (grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>());
   std::optional<detail::DistanceModel> distances = readDistances(options.hermite, mayBeDistance, *sampler, map);
-  mImpl = std::make_unique<Impl>(Impl{reading, std::move(map), std::move(sampler), distances});
+  mImpl = std::make_unique<Impl>(
+      Impl{reading, std::move(map), std::move(sampler), distances, detail::NoiseGrids(grid, options)});
 }
 
 GridSource::~GridSource() = default;
@@ -121,13 +127,30 @@ void GridSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, 
   const auto read = [&](detail::DistanceWindow& window) {
     mImpl->sampler->readWindow(block, static_cast<float>(1 / mImpl->map.voxelSize()), window);
   };
-  detail::findFeaturePlanes({signs, edges, hermite, patches}, *mImpl->distances, read, planes);
+  if (!mImpl->noise.hasSigma()) {
+    detail::findFeaturePlanes({signs, edges, hermite, patches}, *mImpl->distances, read, planes);
+    return;
+  }
+  detail::DistanceModel local = *mImpl->distances;
+  local.noise = mImpl->noise.meanSigma(block, edges, hermite) / mImpl->map.voxelSize();
+  if (local.noise > kMostNoise) return;
+  detail::findFeaturePlanes({signs, edges, hermite, patches}, local, read, planes);
+}
+
+bool GridSource::knowsNoise() const { return mImpl->noise.any(); }
+
+bool GridSource::knowsSigma() const { return mImpl->noise.hasSigma(); }
+
+void GridSource::fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
+                           PlaneNoise& noise) const {
+  mImpl->noise.fill(block, edges, hermite, *mImpl->sampler, noise);
 }
 
 const LatticeMap& GridSource::map() const { return mImpl->map; }
 double GridSource::iso() const { return mImpl->reading.iso; }
 bool GridSource::usesDistances() const { return mImpl->distances.has_value(); }
 double GridSource::valueNoise() const { return mImpl->distances ? mImpl->distances->noise : 0; }
+std::size_t GridSource::refusedNoise() const { return mImpl->noise.refused(); }
 bool GridSource::insideIsHigher() const { return mImpl->reading.insideIsHigher; }
 
 }  // namespace pdc

@@ -19,6 +19,23 @@ void spoil(openvdb::FloatGrid& grid, int nanVoxels, int infiniteVoxels) {
   }
 }
 
+openvdb::FloatGrid::Ptr companion(const openvdb::FloatGrid& sphere, const char* name, float low, float high) {
+  auto grid = openvdb::FloatGrid::create(0);
+  grid->setName(name);
+  grid->setTransform(sphere.transform().copy());
+  for (auto voxel = sphere.cbeginValueOn(); voxel; ++voxel)
+    grid->tree().setValue(voxel.getCoord(), voxel.getCoord().x() > 0 ? high : low);
+  return grid;
+}
+
+void addNoiseGrids(const openvdb::FloatGrid& sphere, openvdb::GridPtrVec& grids) {
+  grids.push_back(companion(sphere, "sigma", 0, 0.02F));
+  grids.push_back(companion(sphere, "weight", 1, 1));
+  grids.push_back(companion(sphere, "faulty", -1, -1));
+  grids.push_back(companion(sphere, "moved", 1, 1));
+  grids.back()->setTransform(openvdb::math::Transform::createLinearTransform(0.3));
+}
+
 }  // namespace
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
@@ -33,6 +50,7 @@ void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
     sphere->transform().postTranslate({content.offset, 0, 0});
     spoil(*sphere, content.nanVoxels, content.infiniteVoxels);
     grids.push_back(sphere);
+    if (content.noiseGrids) addNoiseGrids(*sphere, grids);
     if (content.twoGrids) {
       grids.push_back(sphere->deepCopyGrid());
       grids.back()->setName("other");

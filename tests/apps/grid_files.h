@@ -10,7 +10,10 @@ struct SphereFile {
   int infiniteVoxels = 0;   ///< And that many more infinite.
   bool vectorGrid = false;  ///< Holds a vec3s grid instead.
   bool twoGrids = false;    ///< Holds the same grid a second time under the name "other"; the first is "sphere".
-  double offset = 0;        ///< Of the centre along x, through the grid's transform.
+  /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "moved", of
+  /// another transform; "faulty", -1 there.
+  bool noiseGrids = false;
+  double offset = 0;  ///< Of the centre along x, through the grid's transform.
 };
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content = {});

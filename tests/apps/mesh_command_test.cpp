@@ -192,5 +192,52 @@ TEST_F(MeshCommand, NormalsAreWritten) {
   EXPECT_NE(readFile(mOutput).find("property float nx"), std::string::npos);
 }
 
+TEST_F(MeshCommand, NoiseGridsReachTheContouring) {
+  const std::string input = mFolder / "sphere.vdb";
+  writeSphere(input, {.noiseGrids = true});
+  contour({input, "--grid", "sphere"});
+  const Buffer<Vec3f> plain = readMesh(mOutput).positions;
+  const Json report = contour({input, "--grid", "sphere", "--weight-grid", "weight", "--sigma-grid", "sigma"});
+  EXPECT_EQ(report["sigma_grid"], "sigma");
+  EXPECT_EQ(report["weight_grid"], "weight");
+  const Buffer<Vec3f> noisy = readMesh(mOutput).positions;
+  ASSERT_EQ(noisy.size(), plain.size());
+  float left = 0, right = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    float& moved = plain[i].x > 0.2F ? right : left;
+    if (std::abs(plain[i].x) > 0.2F) moved = std::max(moved, length(noisy[i] - plain[i]));
+  }
+  EXPECT_LT(left, 1e-5F);
+  EXPECT_GT(right, 1e-4F);
+}
+
+TEST_F(MeshCommand, FaultyNoiseIsAWarning) {
+  const std::string input = mFolder / "sphere.vdb";
+  writeSphere(input, {.noiseGrids = true});
+  const Outcome outcome = runPdc({"mesh", input, mOutput, "--grid", "sphere", "--sigma-grid", "faulty"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("negative or not finite"), std::string::npos) << outcome.err;
+}
+
+TEST_F(MeshCommand, SigmaFromTheDataIsReported) {
+  const Json report = contour({bulletGrid(), "--sigma-n", "auto"});
+  EXPECT_EQ(report["sigma_n"], "auto");
+  EXPECT_GT(report["normal_noise"], 0);
+}
+
+TEST_F(MeshCommand, ConfidenceAndRankAreWrittenAndDrawn) {
+  contour({bulletGrid()});
+  const Mesh plain = readMesh(mOutput);
+  contour({bulletGrid(), "--confidence", "--rank"});
+  const Mesh rated = readMesh(mOutput);
+  EXPECT_EQ(rated.positions, plain.positions);
+  EXPECT_EQ(rated.quads, plain.quads);
+  EXPECT_EQ(readVertexProperty(mOutput, "confidence").value().size(), plain.positions.size());
+  EXPECT_EQ(readVertexProperty(mOutput, "rank").value().size(), plain.positions.size());
+  const Outcome drawn = runPdc({"render", mOutput, mFolder / "rated.png", "--shading", "confidence"});
+  EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("confidence from 0, blue, to 1, yellow"), std::string::npos) << drawn.out;
+}
+
 }  // namespace
 }  // namespace pdc::test

@@ -193,6 +193,20 @@ TEST_F(MeshErrors, OptionsOfTheOtherKindOfInput) {
   expectRefusal({"any.yaml", "--nan", "outside"}, kUsage, {"--nan", ".vdb inputs only"});
 }
 
+TEST_F(MeshErrors, NoiseGridsThatDoNotFit) {
+  const std::string input = mFolder / "noise.vdb";
+  writeSphere(input, {.noiseGrids = true});
+  expectRefusal({input, mOutput, "--grid", "sphere", "--sigma-grid", "none"}, kFailed, {"noise.vdb", "none"});
+  expectRefusal({input, mOutput, "--grid", "sphere", "--sigma-grid", "sphere"}, kFailed, {"--sigma-grid", "itself"});
+  expectRefusal({input, mOutput, "--grid", "sphere", "--weight-grid", "moved"}, kFailed, {"moved", "transform"});
+  expectRefusal({"any.yaml", "--sigma-grid", "a"}, kUsage, {"--sigma-grid", ".vdb inputs only"});
+}
+
+TEST_F(MeshErrors, PropertiesThatTheFormatLacks) {
+  expectRefusal({mBullet, mFolder / "out.stl", "--confidence"}, kUsage, {"--confidence", ".ply outputs only"});
+  expectRefusal({mBullet, mFolder / "out.obj", "--rank"}, kUsage, {"--rank", ".ply outputs only"});
+}
+
 TEST_F(MeshErrors, VoxelSizeAndResolution) {
   expectRefusal({"any.yaml", "--voxel-size", "1", "--resolution", "10"}, kUsage, {"--voxel-size", "--resolution"});
   for (const char* text : {"0", "-1", "inf", "nan"}) {

@@ -87,7 +87,7 @@ TEST_F(SweepCommand, StepsWithoutSurfaceAreBlankButNotAllMayBe) {
 
 TEST_F(SweepCommand, BadRequestsFailInOneLine) {
   expectRefusal({mScene, mOut, "--sigma-n="}, 2, {"--sigma-n", "LIST missing"});
-  for (const char* list : {",", "0,", "0,-0.1", "-1", "nan", "0;1", "a,b", "0, 1"})
+  for (const char* list : {",", "0,", "0,-0.1", "-1", "nan", "0;1", "a,b", "0, 1", "0,auto"})
     expectRefusal({mScene, mOut, std::string("--sigma-n=") + list}, 2, {"--sigma-n", list, ">= 0 or inf"});
   expectRefusal({mScene, mOut, "--sigma-n", "0.1,0.2,0.1"}, 2, {"--sigma-n", "twice"});
   expectRefusal({mScene, mOut, "--iso=0,inf"}, 2, {"--iso", "finite"});

@@ -5,6 +5,7 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "eval/inputs.h"
@@ -83,6 +84,31 @@ TEST_F(FeaturesTest, NoiseBlursEdgesByAboutAsMuch) {
   const eval::Figures f = figures("hexagon", "exact", 0.02, HermiteMode::kAuto);
   EXPECT_LT(f.edgeRms, 0.035);
   EXPECT_LT(f.vertexRms, figures("hexagon", "exact", 0.02, HermiteMode::kGradient).vertexRms);
+}
+
+/// Noise that grows from 0 to 0.2 voxels across the solid, and what single σn make of it.
+TEST_F(FeaturesTest, ASigmaGridBeatsEverySingleSigmaInBothHalves) {
+  constexpr unsigned kPoses = 4;
+  const std::vector<double> sigmas{0.01, 0.05, 0.1, 0.2, 0.5, 1};
+  std::vector<eval::Figures> single(sigmas.size());
+  eval::Figures known;
+  for (unsigned i = kPose; i < kPose + kPoses; ++i) {
+    const eval::Pose pose = eval::randomPose(i, kSize);
+    const eval::GridInput input = eval::makeGradedGrid(shape("hexagon"), pose, 0.2, i);
+    const auto add = [&](const GridSource& source, std::optional<double> sigma, eval::Figures& sum) {
+      const Mesh mesh = contour(source, {.sigmaNormal = sigma});
+      const eval::Figures f = eval::measure(mesh, shape("hexagon"), pose, eval::Part::kHalves);
+      sum.vertexRms += f.vertexRms / kPoses;
+      sum.edgeRms += f.edgeRms / kPoses;
+    };
+    const GridSource plain(input.grid, {.hermite = HermiteMode::kDistance});
+    for (std::size_t k = 0; k < sigmas.size(); ++k) add(plain, sigmas[k], single[k]);
+    add(GridSource(input.grid, {.hermite = HermiteMode::kDistance, .sigma = input.sigma}), std::nullopt, known);
+  }
+  for (std::size_t k = 0; k < sigmas.size(); ++k) {
+    EXPECT_LT(known.vertexRms, single[k].vertexRms) << sigmas[k];
+    EXPECT_LT(known.edgeRms, single[k].edgeRms) << sigmas[k];
+  }
 }
 
 TEST_F(FeaturesTest, SmoothSurfacesAreNoWorse) {

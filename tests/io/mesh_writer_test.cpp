@@ -137,6 +137,25 @@ TEST(WriteMesh, TextPlyByteForByte) {
             "4 0 1 2 3\n3 1 0 4\n");
 }
 
+TEST(WriteMesh, PropertiesOfVerticesComeBack) {
+  const TemporaryFolder folder;
+  Mesh mesh = randomMesh(17, 9, true);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    mesh.confidence.push_back(1 / (1 + 0.1F * static_cast<float>(i)));
+    mesh.ranks.push_back(static_cast<std::uint8_t>(1 + i % 3));
+  }
+  for (const bool ascii : {false, true}) {
+    const auto path = folder / (ascii ? "text.ply" : "binary.ply");
+    writeMesh(mesh, path, {.ascii = ascii});
+    const Mesh read = readMesh(path);
+    expectSameBits(read.positions, mesh.positions);
+    expectSameBits(read.normals, mesh.normals);
+    EXPECT_EQ(read.quads, mesh.quads);
+    EXPECT_EQ(readVertexProperty(path, "confidence"), mesh.confidence);
+    EXPECT_EQ(readVertexProperty(path, "rank"), Buffer<float>(mesh.ranks.begin(), mesh.ranks.end()));
+  }
+}
+
 TEST(WriteMesh, ObjByteForByte) {
   const TemporaryFolder folder;
   writeMesh(tinyMesh(), folder / "a.obj");

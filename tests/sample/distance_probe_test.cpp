@@ -7,6 +7,7 @@
 #include <random>
 
 #include "pdc/error.h"
+#include "pdc/extract/contour.h"
 #include "pdc/sample/grid_source.h"
 
 namespace pdc {
@@ -57,11 +58,20 @@ TEST_F(DistanceProbeTest, GradientMeansGradient) {
   EXPECT_FALSE(GridSource(sphere(), {.hermite = HermiteMode::kGradient}).usesDistances());
 }
 
+/// That the grid is contoured with plain gradients.
+void expectPlainPath(const openvdb::GridBase::ConstPtr& grid) {
+  EXPECT_FALSE(GridSource(grid).usesDistances());
+  const Mesh mesh = contour(GridSource(grid)), plain = contour(GridSource(grid, {.hermite = HermiteMode::kGradient}));
+  EXPECT_FALSE(mesh.empty());
+  EXPECT_EQ(mesh.positions, plain.positions);
+  EXPECT_EQ(mesh.quads, plain.quads);
+}
+
 TEST_F(DistanceProbeTest, FogVolumesAreNone) {
   const auto fog = sphere();
   openvdb::tools::sdfToFogVolume(*fog);
   ASSERT_EQ(fog->getGridClass(), openvdb::GRID_FOG_VOLUME);
-  EXPECT_FALSE(GridSource(fog).usesDistances());
+  expectPlainPath(fog);
 }
 
 TEST_F(DistanceProbeTest, WholeNumbersAreNone) {
@@ -70,7 +80,7 @@ TEST_F(DistanceProbeTest, WholeNumbersAreNone) {
     for (int y = -8; y <= 8; ++y)
       for (int z = -8; z <= 8; ++z)
         grid->tree().setValue({x, y, z}, static_cast<int>(std::lround(std::sqrt(x * x + y * y + z * z))) - 5);
-  EXPECT_FALSE(GridSource(grid).usesDistances());
+  expectPlainPath(grid);
 }
 
 /// Densities as of a scanner: a soft step at the surface, with noise, about a background of air.
@@ -85,7 +95,8 @@ TEST_F(DistanceProbeTest, DensitiesAreNone) {
           const double d = std::sqrt(x * x + y * y + z * z) - 8;
           grid->tree().setValue({x, y, z}, static_cast<float>(background * std::tanh(d / 1.5) + normal(random)));
         }
-    EXPECT_FALSE(GridSource(grid).usesDistances()) << background;
+    SCOPED_TRACE(background);
+    expectPlainPath(grid);
   }
 }
 

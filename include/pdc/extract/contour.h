@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "pdc/mesh/mesh.h"
 #include "pdc/sample/hermite_source.h"
@@ -14,16 +15,34 @@ enum class Placement {
   kFree,       ///< Anywhere within 1.5 voxels of its cell; faces may intersect.
 };
 
+/// σn where nothing else is said.
+inline constexpr double kDefaultSigmaNormal = 0.05;
+
 struct ContourOptions {
   /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric
   /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
   /// experiments.
-  double sigmaNormal = 0.05;
+  /// Empty: from the data. The noise of the normals is estimated as by normalNoise() from up to 64 blocks; creases get
+  /// that as σn, at least 0.02, and patches whose normals agree to within it about 0.7 or more, which halves the error of
+  /// curvature and noise there. A function has no noise. Planes that come from distances have a σn of their own.
+  std::optional<double> sigmaNormal = kDefaultSigmaNormal;
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
-  int threads = 0;         ///< 0: all. The result does not depend on it, byte for byte.
+  /// Also the confidence of each vertex, 1 / (1 + s / kHalfConfidence), where s estimates the standard deviation of the
+  /// vertex's place in voxels: s² is the variance that the residuals of its planes give the solution in the directions
+  /// that they determine (Gauss-Markov), plus the square of its distance from its neighbours' mean along its normal,
+  /// neighbours across a crease left out. So noise lowers it, and so do tight curvature and being drawn back. It knows
+  /// nothing of errors that all vertices about a place share. Costs about as much again as contouring.
+  bool confidence = false;
+  /// Also the rank of each vertex: the number of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the
+  /// trace, so that planes at 26° or more count as two.
+  bool ranks = false;
+  int threads = 0;  ///< 0: all. The result does not depend on it, byte for byte.
 };
+
+/// The standard deviation, in voxels, of a vertex whose confidence is one half.
+inline constexpr double kHalfConfidence = 0.1;
 
 /// Counts of one contour() call; no verdicts.
 struct ContourReport {
@@ -38,6 +57,7 @@ struct ContourReport {
   std::size_t drawnIn = 0;                 ///< Vertices drawn back into their cells all the way.
   std::size_t forcedDiagonals = 0;         ///< Quads split along the diagonal of larger quadric error.
   std::size_t fans = 0;                    ///< Quads replaced by triangles about the crossing of their lattice edge.
+  double normalNoise = 0;                  ///< Estimated where σn came from the data; else 0.
   std::size_t uncertified = 0;             ///< Pairs of faces that still meet where they should not: see contour().
 };
 

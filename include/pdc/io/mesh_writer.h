@@ -15,9 +15,9 @@ struct MeshWriteOptions {
 /// Call it before long work. Makes no file.
 void checkMeshPath(const std::filesystem::path& path);
 
-/// Writes by suffix: .ply (binary little-endian unless ascii; float x y z, normals if the mesh has them, int or, above
-/// 2^31 vertices, uint indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off
-/// through OpenMesh (.stl as triangles).
+/// Writes by suffix: .ply (binary little-endian unless ascii; float x y z, and what the mesh has of float nx ny nz,
+/// float confidence and uchar rank; int or, above 2^31 vertices, uint indices), .obj (shortest decimal that reads back
+/// to the same float; v, vn, f), and .stl and .off through OpenMesh (.stl as triangles).
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed, whatever stood under the name stays, and Error is thrown.

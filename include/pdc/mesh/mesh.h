@@ -64,7 +64,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// the triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
 struct Mesh {
   Buffer<Vec3f> positions;
-  Buffer<Vec3f> normals;  ///< Empty, or one unit vector per vertex.
+  Buffer<Vec3f> normals;       ///< Empty, or one unit vector per vertex.
+  Buffer<float> confidence;    ///< Empty, or one number in [0, 1] per vertex; see ContourOptions.
+  Buffer<std::uint8_t> ranks;  ///< Empty, or one per vertex: 1 on a flat part, 2 on an edge, 3 at a corner.
   Buffer<Quad> quads;
   Buffer<Triangle> triangles;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +36,12 @@ struct FeaturePlanes {
   std::vector<Plane> planes;
 
   [[nodiscard]] std::span<const Plane> of(const Patch& p) const { return {planes.data() + p.first, p.count}; }
+  /// What is known of patch i, or null.
+  [[nodiscard]] const Patch* find(std::size_t i) const {
+    const auto it =
+        std::lower_bound(patches.begin(), patches.end(), i, [](const Patch& p, std::size_t n) { return p.patch < n; });
+    return it != patches.end() && it->patch == i ? &*it : nullptr;
+  }
   void clear() {
     patches.clear();
     planes.clear();

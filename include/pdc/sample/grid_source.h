@@ -27,6 +27,13 @@ struct GridSourceOptions {
   /// of inside), and none of them is used for a normal.
   bool acceptNonFinite = false;
   HermiteMode hermite = HermiteMode::kAuto;
+  /// What is known of each value: scalar grids with the same transform; null where nothing is. Outside of what is
+  /// active they have their background, as the grid itself. Values that are negative or not finite count as 0 (see
+  /// GridSource::refusedNoise).
+  /// Standard deviation of the value, in its own units.
+  openvdb::GridBase::ConstPtr sigma{};
+  /// How much the value counts beside others, like the weights of a truncated signed distance; only ratios matter.
+  openvdb::GridBase::ConstPtr weight{};
 };
 
 /// A scalar OpenVDB grid (float, double, int32, int64, bool) on its own lattice, read straight from its leaf buffers.
@@ -44,6 +51,11 @@ struct GridSourceOptions {
 /// float and double grids that are level sets, or unclassified about a positive background, with an affine transform,
 /// if the median of | |∇φ| − 1 | over a sample of the band is at most 0.15; \throws Error where kDistance is asked for
 /// and the transform is not affine.
+///
+/// With a σ grid each crossing's plane has its own σn: the σ there, over the length of the gradient, propagated through
+/// the differences that the normal is made of; planes from distances take the mean σ of their block in place of the
+/// noise that is measured. With a weight grid the quadric of a crossing counts by the weight there; planes from
+/// distances do not. \throws Error for such a grid that is the grid itself, has another transform or is not scalar.
 class GridSource final : public HermiteSource {
  public:
   explicit GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options = {});
@@ -56,6 +68,10 @@ class GridSource final : public HermiteSource {
   void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                          const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
                          FeaturePlanes& planes) const override;
+  [[nodiscard]] bool knowsNoise() const override;
+  [[nodiscard]] bool knowsSigma() const override;
+  void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
+                 PlaneNoise& noise) const override;
   [[nodiscard]] const LatticeMap& map() const override;
 
   [[nodiscard]] double iso() const;
@@ -64,6 +80,8 @@ class GridSource final : public HermiteSource {
   [[nodiscard]] bool usesDistances() const;
   /// Standard deviation of white noise in the distances, in voxels, as estimated; 0 if none are used.
   [[nodiscard]] double valueNoise() const;
+  /// Active values of the σ and weight grids that are negative or not finite.
+  [[nodiscard]] std::size_t refusedNoise() const;
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 #include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
 #include "pdc/sample/lattice_map.h"
+#include "pdc/sample/plane_noise.h"
 
 namespace pdc {
 
@@ -39,6 +40,15 @@ class HermiteSource {
   virtual void fillFeaturePlanes(const Coord& /*block*/, const BlockSigns& /*signs*/, const EdgeIndex& /*edges*/,
                                  const HermiteBlock& /*hermite*/, std::span<const SurfacePatch> /*patches*/,
                                  FeaturePlanes& /*planes*/) const {}
+
+  /// True if fillNoise() has something to say, about all blocks.
+  [[nodiscard]] virtual bool knowsNoise() const { return false; }
+  /// True if that says more of the normals than that they have no noise of their own.
+  [[nodiscard]] virtual bool knowsSigma() const { return false; }
+  /// Fills what is known of the noise of each crossing in `hermite`, which was filled before. Does not allocate. Called
+  /// only if knowsNoise().
+  virtual void fillNoise(const Coord& /*block*/, const EdgeIndex& /*edges*/, const HermiteBlock& /*hermite*/,
+                         PlaneNoise& /*noise*/) const {}
 
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;

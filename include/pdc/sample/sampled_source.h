@@ -10,7 +10,7 @@ namespace pdc {
 /// options, samples once. Meshes are the same, byte for byte, as those of the source itself.
 ///
 /// Takes 16 bytes per crossing and block that sees it, about 2 kB per block. A block's data is found by its coordinate.
-/// The source must live as long: planes beyond the crossings are asked of it each time.
+/// The source must live as long: planes beyond the crossings and their noise are asked of it each time.
 class SampledSource final : public HermiteSource {
  public:
   /// Runs in parallel on the calling thread's arena. \throws Cancelled, whatever the source throws.
@@ -23,6 +23,12 @@ class SampledSource final : public HermiteSource {
   void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                          const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
                          FeaturePlanes& planes) const override;
+  [[nodiscard]] bool knowsNoise() const override { return mSource.knowsNoise(); }
+  [[nodiscard]] bool knowsSigma() const override { return mSource.knowsSigma(); }
+  void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
+                 PlaneNoise& noise) const override {
+    mSource.fillNoise(block, edges, hermite, noise);
+  }
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
 
   /// Crossings kept, those that several blocks see counted for each.
