@@ -20,9 +20,9 @@ PlaneTolerance tolerance(double noise) {
   return {.error = 0.04F + 2 * n, .usual = 0.001F + 0.5F * n, .kink = 0.01F + 2 * n};
 }
 
-/// Where slopes from both sides differ by less, in every voxel about a cell, no crease turns by more than 20°; plain
-/// gradients miss it by 0.03 voxel at most.
-float creaseKink(double noise) { return static_cast<float>(0.2 + 2 * noise); }
+/// Where slopes from both sides differ by less, in every voxel about a cell, no crease turns by more than 20°, which
+/// plain gradients miss by 0.03 voxel at most, or the noise hides it.
+float creaseKink(double noise) { return std::max(0.2F, tolerance(noise).kink); }
 
 /// A side this far from where all sides meet, in voxels, does not meet them.
 double missed(double noise) { return 0.1 + 2 * noise; }

@@ -178,6 +178,20 @@ void VoxelPlanes::find(int row) {
     mCount += size;
   }
   mNeeded[row] = 0;
+  for (int v = 0; v < kVoxels; ++v) keepHeaviest(mStart[row][v], mStart[row][v + 1]);
+}
+
+void VoxelPlanes::keepHeaviest(int begin, int end) {
+  constexpr int kMost = 3;
+  float *weight = mColumn[SurfaceSamples::kWeight].data(), *trust = mColumn[SurfaceSamples::kTrust].data();
+  for (int excess = end - begin - kMost; excess > 0; --excess) {
+    float* lightest = nullptr;
+    for (float* w = weight + begin; w != weight + end; ++w)
+      if (*w > 0 && (lightest == nullptr || *w < *lightest)) lightest = w;
+    if (lightest == nullptr || std::count_if(weight + begin, weight + end, [](float w) { return w > 0; }) <= kMost)
+      return;
+    trust[lightest - weight] = *lightest = 0;
+  }
 }
 
 void VoxelPlanes::expect(const Coord& cell) {

@@ -65,6 +65,8 @@ class VoxelPlanes {
   static constexpr int kCapacity = kVoxels * kVoxels * kVoxels * SurfaceSamples::kOctants + kLanes;
 
   void find(int row);
+  /// Of a voxel's samples only three count: with noise more octants agree with themselves by chance.
+  void keepHeaviest(int begin, int end);
 
   const DistanceWindow& mWindow;
   PlaneTolerance mTolerance;
