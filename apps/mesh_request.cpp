@@ -54,21 +54,6 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
 
-}  // namespace
-
-void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
-  command
-      .add_option("--sigma-grid", request.sigmaGrid,
-                  "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
-      ->type_name("NAME")
-      ->group(group);
-  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
-      ->type_name("NAME")
-      ->group(group);
-}
-
-namespace {
-
 void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto grids = "For .vdb inputs";
@@ -114,6 +99,17 @@ ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
           .confidence = confidence,
           .ranks = rank,
           .threads = threads.value_or(0)};
+}
+
+void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
+  command
+      .add_option("--sigma-grid", request.sigmaGrid,
+                  "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+      ->type_name("NAME")
+      ->group(group);
 }
 
 void addMeshOptions(CLI::App& command, MeshRequest& request) {

@@ -74,14 +74,7 @@ SolvedVertex VertexSolver::solve(const PatchSamples& samples, const CellMetric& 
   const SymMat3<double> Sigma_n = metric.G * variance;
   q.A += Sigma_n * n;
   q.b += Sigma_n * positions;
-
-  // About the mass point the right-hand side is small where the surface is flat, and so is what rounding does to it.
-  const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
-  if (!step) return solveClassical(q, massPoint, metric);  // σn² drowned in rounding.
-  SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
-  constrain(v, q.A, q.b);
-  v.halfGradient = q.halfGradient(v.x);
-  return v;
+  return minimize(q, massPoint, metric);
 }
 
 double VertexSolver::varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const {
@@ -106,12 +99,7 @@ SolvedVertex VertexSolver::solveNoisy(const PatchSamples& samples, const Vec3d& 
   const SymMat3<double> Sigma_n = metric.G * varianceOf(q.A, weight, metric);
   q.A += Sigma_n * weight;
   q.b += Sigma_n * positions;
-  const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
-  if (!step) return solveClassical(q, massPoint, metric);
-  SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
-  constrain(v, q.A, q.b);
-  v.halfGradient = q.halfGradient(v.x);
-  return v;
+  return minimize(q, massPoint, metric);
 }
 
 SolvedVertex VertexSolver::solveFeatures(const PatchSamples& samples, const CellMetric& metric) const {
@@ -124,8 +112,13 @@ SolvedVertex VertexSolver::solveFeatures(const PatchSamples& samples, const Cell
       metric.G * (samples.featureSigma * samples.featureSigma * static_cast<double>(samples.features.size()));
   q.A += Sigma_n;
   q.b += Sigma_n * massPoint;
+  return minimize(q, massPoint, metric);
+}
+
+SolvedVertex VertexSolver::minimize(const Quadric<double>& q, const Vec3d& massPoint, const CellMetric& metric) const {
+  // About the mass point the right-hand side is small where the surface is flat, and so is what rounding does to it.
   const auto step = solveLdlt(q.A, q.b - q.A * massPoint);
-  if (!step) return solveClassical(q, massPoint, metric);
+  if (!step) return solveClassical(q, massPoint, metric);  // σn² drowned in rounding.
   SolvedVertex v{massPoint + *step, q.A, Vec3d{}};
   constrain(v, q.A, q.b);
   v.halfGradient = q.halfGradient(v.x);

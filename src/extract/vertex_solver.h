@@ -16,11 +16,11 @@ namespace pdc::detail {
 struct CellMetric {
   /// \param jacobian of the lattice map; \param voxelSize the length that counts as one.
   CellMetric(const Mat3d& jacobian, double voxelSize);
+  [[nodiscard]] SymMat3<double> inverseG() const;
 
   double voxelSize;
   Mat3d M;
-  SymMat3<double> G;  ///< MᵀM.
-  [[nodiscard]] SymMat3<double> inverseG() const;
+  SymMat3<double> G;      ///< MᵀM.
   bool identity = false;  ///< True for the common case of a uniform, unrotated lattice, where M = G = I.
 };
 
@@ -88,6 +88,8 @@ class VertexSolver {
   [[nodiscard]] SolvedVertex solveNoisy(const PatchSamples& samples, const Vec3d& massPoint,
                                         const CellMetric& metric) const;
   [[nodiscard]] SolvedVertex solveFeatures(const PatchSamples& samples, const CellMetric& metric) const;
+  /// The minimiser of a regular quadric within the bounds.
+  [[nodiscard]] SolvedVertex minimize(const Quadric<double>& q, const Vec3d& massPoint, const CellMetric& metric) const;
   [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
   void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;
 

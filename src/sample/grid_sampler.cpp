@@ -111,7 +111,7 @@ class TypedGridSampler final : public GridSampler {
       return inverse(map.jacobian(x)).transposed() * map.voxelSize();
     };
     if (map.affine()) {
-      fillFromHalo(halo, edges, limits, toFloat(normalMap({})), hermite);
+      fillFromHalo(halo, edges, limits, matCast<float>(normalMap({})), hermite);
       return;
     }
     fillFromHalo(halo, edges, limits, Mat3f::identity(), hermite);
@@ -328,10 +328,6 @@ class TypedGridSampler final : public GridSampler {
             mReader.template copy<2>(rows[2].at(x, y), to + 9);
           }
       }
-  }
-
-  static Mat3f toFloat(const Mat3d& m) {
-    return {{vecCast<float>(m.row[0]), vecCast<float>(m.row[1]), vecCast<float>(m.row[2])}};
   }
 
   typename GridT::ConstPtr mGrid;

@@ -127,14 +127,12 @@ void GridSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, 
   const auto read = [&](detail::DistanceWindow& window) {
     mImpl->sampler->readWindow(block, static_cast<float>(1 / mImpl->map.voxelSize()), window);
   };
-  if (!mImpl->noise.hasSigma()) {
-    detail::findFeaturePlanes({signs, edges, hermite, patches}, *mImpl->distances, read, planes);
-    return;
+  detail::DistanceModel model = *mImpl->distances;
+  if (mImpl->noise.hasSigma()) {
+    model.noise = mImpl->noise.meanSigma(block, edges, hermite) / mImpl->map.voxelSize();
+    if (model.noise > kMostNoise) return;
   }
-  detail::DistanceModel local = *mImpl->distances;
-  local.noise = mImpl->noise.meanSigma(block, edges, hermite) / mImpl->map.voxelSize();
-  if (local.noise > kMostNoise) return;
-  detail::findFeaturePlanes({signs, edges, hermite, patches}, local, read, planes);
+  detail::findFeaturePlanes({signs, edges, hermite, patches}, model, read, planes);
 }
 
 bool GridSource::knowsNoise() const { return mImpl->noise.any(); }

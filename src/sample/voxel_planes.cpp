@@ -184,13 +184,14 @@ void VoxelPlanes::find(int row) {
 void VoxelPlanes::keepHeaviest(int begin, int end) {
   constexpr int kMost = 3;
   float *weight = mColumn[SurfaceSamples::kWeight].data(), *trust = mColumn[SurfaceSamples::kTrust].data();
-  for (int excess = end - begin - kMost; excess > 0; --excess) {
-    float* lightest = nullptr;
-    for (float* w = weight + begin; w != weight + end; ++w)
-      if (*w > 0 && (lightest == nullptr || *w < *lightest)) lightest = w;
-    if (lightest == nullptr || std::count_if(weight + begin, weight + end, [](float w) { return w > 0; }) <= kMost)
-      return;
-    trust[lightest - weight] = *lightest = 0;
+  if (end - begin <= kMost) return;
+  const auto counting = [&](int i) { return weight[i] > 0 ? weight[i] : std::numeric_limits<float>::infinity(); };
+  auto left = std::count_if(weight + begin, weight + end, [](float w) { return w > 0; });
+  for (; left > kMost; --left) {
+    int lightest = begin;
+    for (int i = begin + 1; i < end; ++i)
+      if (counting(i) < counting(lightest)) lightest = i;
+    weight[lightest] = trust[lightest] = 0;
   }
 }
 

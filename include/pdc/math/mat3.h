@@ -38,6 +38,11 @@ constexpr Mat3<T> inverse(const Mat3<T>& m) {
   return {{cross(b, c) * s, cross(c, a) * s, cross(a, b) * s}};
 }
 
+template <typename To, typename From>
+constexpr Mat3<To> matCast(const Mat3<From>& m) {
+  return {{vecCast<To>(m.row[0]), vecCast<To>(m.row[1]), vecCast<To>(m.row[2])}};
+}
+
 using Mat3d = Mat3<double>;
 using Mat3f = Mat3<float>;
 

@@ -11,8 +11,8 @@ struct PlaneNoise {
   /// Standard deviation of each component of the unit normal (no unit, >= 0), in addition to the σn that is assumed of
   /// all: variances add.
   std::array<float, HermiteBlock::kCapacity> sigma;
-  /// How much the crossing's quadric counts beside others of its cell, >= 0. If none has weight
-  /// all count the same.
+  /// How much the crossing's quadric counts beside others of its cell, >= 0. If none has weight all count the
+  /// same.
   std::array<float, HermiteBlock::kCapacity> weight;
 };
 
