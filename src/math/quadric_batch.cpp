@@ -1,6 +1,9 @@
 #include "pdc/math/quadric_batch.h"
 
+#include <bit>
+#include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 
 #include "math/lane_loops.h"
 #include "pdc/math/solvers.h"
@@ -35,6 +38,12 @@ void prefetchAhead(std::span<const Lanes> blocks, std::size_t i) {
   const auto* const block = reinterpret_cast<const char*>(&blocks[i + kAhead]);
   for (std::size_t k = 0; k < sizeof(Lanes); k += kCacheLine) __builtin_prefetch(block + k);
 }
+
+/// The bits of a scalar, and the scalar that has them all.
+template <typename T>
+using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
+template <typename T>
+constexpr T kAllBits = std::bit_cast<T>(~Bits<T>(0));
 
 /// Blocks that are summed one after the other; the rounding of so few does not matter beside that of the quadrics.
 constexpr std::size_t kSumRun = 64;
@@ -170,20 +179,23 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
     const Lanes& block = systems[i];
     SolutionLanes<T>& solution = solutions[i];
     prefetchAhead(systems, i);
-    // Two loops with scalars of one size: compilers put the selection into branches, or stumble over the bytes,
-    // otherwise.
-    T keep[kLanes];
+    // Loops with scalars of one size and without a choice: compilers put selections into branches, or stumble over the
+    // bytes, otherwise. The masks are floating-point numbers because SSE2 compares no others of eight bytes.
+    alignas(64) T mask[kLanes];
     detail::forEachLane([&](int lane) {
       Vec3<T> x;
-      keep[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x) ? T(1) : T(0);
+      mask[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x) ? kAllBits<T> : T(0);
       solution.x.set(lane, x);
     });
     detail::forEachLane([&](int lane) {
-      const bool solved = keep[lane] != 0;
+      const auto keep = [bits = std::bit_cast<Bits<T>>(mask[lane])](T v) {
+        return std::bit_cast<T>(std::bit_cast<Bits<T>>(v) & bits);
+      };
       const Vec3<T> x = solution.x.get(lane);
-      solution.x.set(lane, {solved ? x.x : T(0), solved ? x.y : T(0), solved ? x.z : T(0)});
-      solution.solved[lane] = solved;
+      solution.x.set(lane, {keep(x.x), keep(x.y), keep(x.z)});
     });
+    detail::forEachLane(
+        [&](int lane) { solution.solved[lane] = static_cast<std::uint8_t>(std::bit_cast<Bits<T>>(mask[lane]) & 1); });
   });
 }
 
