@@ -1,227 +1,271 @@
-// Table 1 of Trettner & Kobbelt 2020: building quadrics of planes and triangles, and minimising them, one by one and in
-// batches, with Eigen's solvers in the same process. Rates are in operations per second, on one thread.
-//
-// The second argument of each row is the number of quadrics gone through again and again: 2048 stay in cache, a million
-// stream through memory as in the paper.
+// Table 1 of Trettner & Kobbelt 2020 in Markdown: building quadrics of planes and triangles, and minimising them, one
+// by one and in batches, beside the authors' header, where it is on the include path, and Eigen's solvers. Rates are in
+// millions of operations per second on one thread, and in brackets as multiples of the header's.
 
-#include <benchmark/benchmark.h>
-
-#include <Eigen/Dense>
+#include <array>
 #include <cstddef>
-#include <functional>
-#include <random>
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "authors_quadrics.h"
+#include "best_rates.h"
+#include "eigen_solvers.h"
 #include "pdc/math/quadric_batch.h"
 #include "pdc/math/solvers.h"
 #include "pdc/math/triangle_quadric.h"
+#include "quadric_inputs.h"
 
 namespace {
 
 using namespace pdc;
+using bench::Candidate;
 
-constexpr int kInCache = 2048;
-constexpr int kInMemory = 1 << 20;
+constexpr int kRounds = 15;
 
-/// The same random inputs one by one and in blocks.
-template <typename T>
-struct Inputs {
-  std::vector<Vec3<T>> p, q, r, n;
-  std::vector<SymMat3<T>> Sp, Sq, Sr;
-  std::vector<Quadric<T>> quadrics;
-  std::vector<PlaneLanes<T>> planes;
-  std::vector<TriangleLanes<T>> triangles;
-  std::vector<TriangleCovarianceLanes<T>> Sigmas;
-  std::vector<SymMat3Lanes<T>> Sigma_n, Sigma_q;
-  std::vector<QuadricLanes<T>> systems;
-
-  explicit Inputs(std::size_t count) {
-    std::mt19937 engine(1);
-    std::uniform_real_distribution<T> uniform(-1, 1);
-    const auto point = [&] { return Vec3<T>{uniform(engine), uniform(engine), uniform(engine)}; };
-    const auto covariance = [&] { return (outer(point()) + outer(point()) + outer(point())) * T(0.01); };
-    const std::size_t blocks = blockCount(count);
-    planes.resize(blocks);
-    triangles.resize(blocks);
-    Sigmas.resize(blocks);
-    Sigma_n.resize(blocks);
-    Sigma_q.resize(blocks);
-    systems.resize(blocks);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (auto* v : {&p, &q, &r, &n}) v->push_back(point());
-      for (auto* m : {&Sp, &Sq, &Sr}) m->push_back(covariance());
-      quadrics.push_back(probabilisticTriangleQuadric(p[i], q[i], r[i], T(0.1)));
-      const std::size_t block = i / kLanes;
-      const int lane = static_cast<int>(i % kLanes);
-      planes[block].q.set(lane, q[i]);
-      planes[block].n.set(lane, n[i]);
-      triangles[block].p.set(lane, p[i]);
-      triangles[block].q.set(lane, q[i]);
-      triangles[block].r.set(lane, r[i]);
-      Sigmas[block].p.set(lane, Sp[i]);
-      Sigmas[block].q.set(lane, Sq[i]);
-      Sigmas[block].r.set(lane, Sr[i]);
-      Sigma_n[block].set(lane, Sp[i]);
-      Sigma_q[block].set(lane, Sq[i]);
-      systems[block].set(lane, quadrics[i]);
-    }
-  }
-
-  static const Inputs& of(const benchmark::State& state) {
-    static const Inputs inCache(kInCache), inMemory(kInMemory);
-    return state.range(0) == kInCache ? inCache : inMemory;
-  }
+/// What one operation is measured in; `run` is empty where there is no such implementation.
+struct Row {
+  std::string name;
+  Candidate header, one, batch;
 };
 
-template <typename T>
-const char* scalarName() {
-  return sizeof(T) == sizeof(float) ? "float" : "double";
-}
+/// Stops the compiler from leaving out what was written to memory.
+inline void clobberMemory() { asm volatile("" ::: "memory"); }
 
-void addRow(const std::string& name, const std::function<void(benchmark::State&)>& run) {
-  benchmark::RegisterBenchmark(name.c_str(), run)->Arg(kInCache)->Arg(kInMemory)->MinTime(0.1);
-}
+/// Where all candidates of a table write: the same pages for each.
+class Output {
+ public:
+  explicit Output(std::size_t bytes) : mMemory(static_cast<std::byte*>(::operator new(bytes, kAlignment))) {}
 
-/// out[i] = one(inputs, i), where Out is Quadric<T> or NormalEquations<T> and decides whether c is computed.
-template <typename Out, typename T, typename One>
-void runOneByOne(benchmark::State& state, const One& one) {
-  const Inputs<T>& in = Inputs<T>::of(state);
-  std::vector<Out> out(static_cast<std::size_t>(state.range(0)));
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      if constexpr (std::is_same_v<Out, NormalEquations<T>>)
-        out[i] = one(in, i).normalEquations();
-      else
-        out[i] = one(in, i);
-    }
-    benchmark::DoNotOptimize(out.data());
-    benchmark::ClobberMemory();
+  template <typename Out>
+  Out* of() const {
+    return reinterpret_cast<Out*>(mMemory.get());
   }
-  state.SetItemsProcessed(state.iterations() * state.range(0));
-}
 
-template <typename Out, typename T, typename Batch>
-void runBatch(benchmark::State& state, const Batch& batch) {
-  const Inputs<T>& in = Inputs<T>::of(state);
-  std::vector<Out> out(in.planes.size());
-  for (auto _ : state) {
-    batch(in, std::span(out));
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * state.range(0));
-}
-
-/// The rows of one kind of quadric: with and without c, one by one and in batches.
-template <typename T, typename One, typename Batch>
-void addQuadricRows(const std::string& kind, const One& one, const Batch& batch) {
-  const std::string row = std::string(scalarName<T>()) + "/" + kind;
-  addRow(row + "/Ab/one", [one](benchmark::State& s) { runOneByOne<NormalEquations<T>, T>(s, one); });
-  addRow(row + "/Ab/batch", [batch](benchmark::State& s) { runBatch<NormalEquationsLanes<T>, T>(s, batch); });
-  addRow(row + "/Abc/one", [one](benchmark::State& s) { runOneByOne<Quadric<T>, T>(s, one); });
-  addRow(row + "/Abc/batch", [batch](benchmark::State& s) { runBatch<QuadricLanes<T>, T>(s, batch); });
-}
-
-template <typename T>
-void addPlaneRows() {
-  const T sigma = T(0.1);
-  addQuadricRows<T>(
-      "plane_classical", [](const Inputs<T>& in, std::size_t i) { return planeQuadric(in.q[i], in.n[i]); },
-      [](const Inputs<T>& in, auto out) { planeQuadrics(in.planes, out); });
-  addQuadricRows<T>(
-      "plane_probabilistic",
-      [](const Inputs<T>& in, std::size_t i) {
-        return probabilisticPlaneQuadric(in.q[i], in.n[i], in.Sp[i], in.Sq[i]);
-      },
-      [](const Inputs<T>& in, auto out) {
-        if constexpr (requires { out[0].c; })
-          probabilisticPlaneQuadrics<T>(in.planes, in.Sigma_n, in.Sigma_q, out);
-        else
-          probabilisticPlaneQuadrics(in.planes, in.Sigma_n, out);
-      });
-  addQuadricRows<T>(
-      "plane_isotropic",
-      [sigma](const Inputs<T>& in, std::size_t i) { return probabilisticPlaneQuadric(in.q[i], in.n[i], sigma, sigma); },
-      [sigma](const Inputs<T>& in, auto out) { probabilisticPlaneQuadrics(in.planes, sigma, sigma, out); });
-}
-
-template <typename T>
-void addTriangleRows() {
-  const T sigma = T(0.1);
-  addQuadricRows<T>(
-      "triangle_classical",
-      [](const Inputs<T>& in, std::size_t i) { return triangleQuadric(in.p[i], in.q[i], in.r[i]); },
-      [](const Inputs<T>& in, auto out) { triangleQuadrics(in.triangles, out); });
-  addQuadricRows<T>(
-      "triangle_probabilistic",
-      [](const Inputs<T>& in, std::size_t i) {
-        return probabilisticTriangleQuadric(in.p[i], in.q[i], in.r[i], in.Sp[i], in.Sq[i], in.Sr[i]);
-      },
-      [](const Inputs<T>& in, auto out) { probabilisticTriangleQuadrics(in.triangles, in.Sigmas, out); });
-  addQuadricRows<T>(
-      "triangle_isotropic",
-      [sigma](const Inputs<T>& in, std::size_t i) {
-        return probabilisticTriangleQuadric(in.p[i], in.q[i], in.r[i], sigma);
-      },
-      [sigma](const Inputs<T>& in, auto out) { probabilisticTriangleQuadrics(in.triangles, sigma, out); });
-}
-
-/// x[i] = solve(quadric i).
-template <typename T, typename X, typename Solve>
-void addSolverRow(const std::string& name, const Solve& solve) {
-  addRow(std::string(scalarName<T>()) + "/solve_" + name, [solve](benchmark::State& state) {
-    const Inputs<T>& in = Inputs<T>::of(state);
-    std::vector<X> x(static_cast<std::size_t>(state.range(0)));
-    for (auto _ : state) {
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] = solve(in.quadrics[i]);
-      benchmark::ClobberMemory();
-    }
-    state.SetItemsProcessed(state.iterations() * state.range(0));
-  });
-}
-
-template <typename T>
-void addSolverRows() {
-  using Matrix = Eigen::Matrix<T, 3, 3>;
-  using Vector = Eigen::Matrix<T, 3, 1>;
-  const auto matrix = [](const Quadric<T>& f) {
-    Matrix A;
-    A << f.A.xx, f.A.xy, f.A.xz, f.A.xy, f.A.yy, f.A.yz, f.A.xz, f.A.yz, f.A.zz;
-    return A;
+ private:
+  static constexpr std::align_val_t kAlignment{4096};
+  struct Free {
+    void operator()(std::byte* p) const { ::operator delete(p, kAlignment); }
   };
-  const auto vector = [](const Quadric<T>& f) { return Vector(f.b.x, f.b.y, f.b.z); };
-  addSolverRow<T, Vec3<T>>("LDLT/one", [](const Quadric<T>& f) { return solveLdlt(f.A, f.b).value_or(Vec3<T>{}); });
-  addRow(std::string(scalarName<T>()) + "/solve_LDLT/batch", [](benchmark::State& s) {
-    runBatch<SolutionLanes<T>, T>(s,
-                                  [](const Inputs<T>& in, auto out) { solveLdlt<QuadricLanes<T>>(in.systems, out); });
-  });
-  addSolverRow<T, Vector>("JacobiSVD", [=](const Quadric<T>& f) {
-    return Vector(Eigen::JacobiSVD<Matrix>(matrix(f), Eigen::ComputeFullU | Eigen::ComputeFullV).solve(vector(f)));
-  });
-  addSolverRow<T, Vector>("BDCSVD", [=](const Quadric<T>& f) {
-    return Vector(Eigen::BDCSVD<Matrix>(matrix(f), Eigen::ComputeFullU | Eigen::ComputeFullV).solve(vector(f)));
-  });
-  addSolverRow<T, Vector>("SelfAdjointEigenSolver", [=](const Quadric<T>& f) {
-    Eigen::SelfAdjointEigenSolver<Matrix> solver;
-    solver.computeDirect(matrix(f));
-    const Vector y = solver.eigenvectors().transpose() * vector(f);
-    return Vector(solver.eigenvectors() * y.cwiseQuotient(solver.eigenvalues()));
-  });
+  std::unique_ptr<std::byte, Free> mMemory;
+};
+
+/// to[i] = f(i) for all i.
+template <typename Out, typename F>
+Candidate loop(const Output& to, std::size_t count, const F& f) {
+  return {[out = to.of<Out>(), count, f] {
+            for (std::size_t i = 0; i < count; ++i) out[i] = f(i);
+            clobberMemory();
+          },
+          count};
+}
+
+/// f(blocks) for the blocks that hold `count` results.
+template <typename Out, typename F>
+Candidate batch(const Output& to, std::size_t count, const F& f) {
+  return {[out = std::span(to.of<Out>(), blockCount(count)), f] {
+            f(out);
+            clobberMemory();
+          },
+          count};
+}
+
+/// All rows of one scalar and one number of operands.
+template <typename T>
+class Table {
+ public:
+  explicit Table(std::size_t count)
+      : mCount(count),
+        mOut(count * sizeof(Quadric<T>)),
+        mIn(count)
+#if PDC_BENCH_HAS_AUTHORS_HEADER
+        ,
+        mAuthors(mIn)
+#endif
+  {
+    addPlanes();
+    addTriangles();
+    addSolvers();
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+
+  std::deque<Row>& rows() { return mRows; }
+
+ private:
+  /// \param authors of the header's quadric type and an index; \param one of an index; \param all of a span of blocks.
+  template <typename Authors, typename One, typename All>
+  void addQuadrics(const std::string& name, const Authors& authors, const One& one, const All& all) {
+    add<NormalEquations<T>, NormalEquationsLanes<T>>(name + " (A, b)", authors, one, all);
+    add<Quadric<T>, QuadricLanes<T>>(name + " (A, b, c)", authors, one, all);
+  }
+
+  template <typename Out, typename OutLanes, typename Authors, typename One, typename All>
+  void add(const std::string& name, const Authors& authors, const One& one, const All& all) {
+    Row& row = mRows.emplace_back();
+    row.name = name;
+    row.batch = batch<OutLanes>(mOut, mCount, all);
+    row.one = loop<Out>(mOut, mCount, [one](std::size_t i) -> Out {
+      if constexpr (std::is_same_v<Out, NormalEquations<T>>)
+        return one(i).normalEquations();
+      else
+        return one(i);
+    });
+#if PDC_BENCH_HAS_AUTHORS_HEADER
+    using Kept = bench::AuthorsOutput<Out, T>;
+    row.header = loop<typename Kept::Type>(
+        mOut, mCount, [authors, in = &mAuthors](std::size_t i) { return Kept::of(authors(*in, i)); });
+#else
+    static_cast<void>(authors);
+#endif
+  }
+
+  void addPlanes() {
+    const T sigma = T(0.1);
+    const Vec3<T>*q = mIn.q.data(), *n = mIn.n.data();
+    const SymMat3<T>*Sn = mIn.Sp.data(), *Sq = mIn.Sq.data();
+    addQuadrics(
+        "plane, classical",
+        [](const auto& in, auto i) { return std::decay_t<decltype(in)>::Quadric::plane_quadric(in.q[i], in.n[i]); },
+        [=](std::size_t i) { return planeQuadric(q[i], n[i]); }, [this](auto out) { planeQuadrics(mIn.planes, out); });
+    addQuadrics(
+        "plane, probabilistic",
+        [](const auto& in, auto i) {
+          return std::decay_t<decltype(in)>::Quadric::probabilistic_plane_quadric(in.q[i], in.n[i], in.Sq[i], in.Sp[i]);
+        },
+        [=](std::size_t i) { return probabilisticPlaneQuadric(q[i], n[i], Sn[i], Sq[i]); },
+        [this](auto out) {
+          if constexpr (requires { out[0].c; })
+            probabilisticPlaneQuadrics<T>(mIn.planes, mIn.Sigma_n, mIn.Sigma_q, out);
+          else
+            probabilisticPlaneQuadrics(mIn.planes, mIn.Sigma_n, out);
+        });
+    addQuadrics(
+        "plane, probabilistic, isotropic",
+        [sigma](const auto& in, auto i) {
+          return std::decay_t<decltype(in)>::Quadric::probabilistic_plane_quadric(in.q[i], in.n[i], sigma, sigma);
+        },
+        [=](std::size_t i) { return probabilisticPlaneQuadric(q[i], n[i], sigma, sigma); },
+        [=, this](auto out) { probabilisticPlaneQuadrics(mIn.planes, sigma, sigma, out); });
+  }
+
+  void addTriangles() {
+    const T sigma = T(0.1);
+    const Vec3<T>*p = mIn.p.data(), *q = mIn.q.data(), *r = mIn.r.data();
+    const SymMat3<T>*Sp = mIn.Sp.data(), *Sq = mIn.Sq.data(), *Sr = mIn.Sr.data();
+    addQuadrics(
+        "triangle, classical",
+        [](const auto& in, auto i) {
+          return std::decay_t<decltype(in)>::Quadric::triangle_quadric(in.p[i], in.q[i], in.r[i]);
+        },
+        [=](std::size_t i) { return triangleQuadric(p[i], q[i], r[i]); },
+        [this](auto out) { triangleQuadrics(mIn.triangles, out); });
+    addQuadrics(
+        "triangle, probabilistic",
+        [](const auto& in, auto i) {
+          return std::decay_t<decltype(in)>::Quadric::probabilistic_triangle_quadric(in.p[i], in.q[i], in.r[i],
+                                                                                     in.Sp[i], in.Sq[i], in.Sr[i]);
+        },
+        [=](std::size_t i) { return probabilisticTriangleQuadric(p[i], q[i], r[i], Sp[i], Sq[i], Sr[i]); },
+        [this](auto out) { probabilisticTriangleQuadrics(mIn.triangles, mIn.Sigmas, out); });
+    addQuadrics(
+        "triangle, probabilistic, isotropic",
+        [sigma](const auto& in, auto i) {
+          return std::decay_t<decltype(in)>::Quadric::probabilistic_triangle_quadric(in.p[i], in.q[i], in.r[i], sigma);
+        },
+        [=](std::size_t i) { return probabilisticTriangleQuadric(p[i], q[i], r[i], sigma); },
+        [=, this](auto out) { probabilisticTriangleQuadrics(mIn.triangles, sigma, out); });
+  }
+
+  void addSolvers() {
+    const Quadric<T>* f = mIn.quadrics.data();
+    Row& ldlt = mRows.emplace_back();
+    ldlt.name = "A⁻¹b by LDLᵀ";
+    ldlt.one =
+        loop<Vec3<T>>(mOut, mCount, [f](std::size_t i) { return solveLdlt(f[i].A, f[i].b).value_or(Vec3<T>{}); });
+    ldlt.batch =
+        batch<SolutionLanes<T>>(mOut, mCount, [this](auto out) { solveLdlt<QuadricLanes<T>>(mIn.systems, out); });
+#if PDC_BENCH_HAS_AUTHORS_HEADER
+    ldlt.header = loop<typename bench::AuthorsInputs<T>::Pos>(
+        mOut, mCount, [g = mAuthors.quadrics.data()](std::size_t i) { return g[i].minimizer(); });
+#endif
+    addEigen();
+  }
+
+  /// Bound by computing: a few quadrics will do.
+  void addEigen() {
+    constexpr std::size_t kCount = 256;
+    const Quadric<T>* f = mIn.quadrics.data();
+    const auto addSolver = [&](const char* name, Vec3<T> (*solve)(const Quadric<T>&)) {
+      Row& row = mRows.emplace_back();
+      row.name = name;
+      row.one = loop<Vec3<T>>(mOut, kCount, [=](std::size_t i) { return solve(f[i]); });
+    };
+    addSolver("Eigen JacobiSVD", bench::solveJacobiSvd<T>);
+    addSolver("Eigen BDCSVD", bench::solveBdcSvd<T>);
+    addSolver("Eigen SelfAdjointEigenSolver, direct", bench::solveEigenDirect<T>);
+  }
+
+  std::size_t mCount;
+  Output mOut;
+  bench::QuadricInputs<T> mIn;
+#if PDC_BENCH_HAS_AUTHORS_HEADER
+  bench::AuthorsInputs<T> mAuthors;
+#endif
+  std::deque<Row> mRows;
+};
+
+std::string cell(const Candidate& c, const Candidate& header) {
+  if (c.rate == 0) return " |";
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), c.rate < 1e8 ? " %.1f" : " %.0f", c.rate / 1e6);
+  std::string s = text.data();
+  if (&c != &header && header.rate > 0) {
+    const double ratio = c.rate / header.rate;
+    std::snprintf(text.data(), text.size(), ratio < 2 ? " (%.2f)" : " (%.1f)", ratio);
+    s += text.data();
+  }
+  return s + " |";
+}
+
+/// Measures and prints one table. Rows whose names do not contain `filter` are left out.
+void printTable(std::size_t count, std::string_view filter) {
+  Table<float> single(count);
+  Table<double> twice(count);
+  std::vector<std::array<Row*, 2>> rows;
+  std::vector<Candidate*> candidates;
+  for (std::size_t i = 0; i < single.rows().size(); ++i) {
+    const std::array<Row*, 2> row{&single.rows()[i], &twice.rows()[i]};
+    if (row[0]->name.find(filter) == std::string::npos) continue;
+    rows.push_back(row);
+    for (Row* r : row)
+      for (Candidate* c : {&r->header, &r->one, &r->batch})
+        if (c->run) candidates.push_back(c);
+  }
+  bench::runRounds(candidates, kRounds);
+  std::printf(
+      "\n%zu operands\n\n| operation | float: header | one | batch | double: header | one | batch |\n"
+      "|---|---|---|---|---|---|---|\n",
+      count);
+  for (const auto& row : rows) {
+    std::printf("| %s |", row[0]->name.c_str());
+    for (const Row* r : row)
+      for (const Candidate* c : {&r->header, &r->one, &r->batch}) std::fputs(cell(*c, r->header).c_str(), stdout);
+    std::puts("");
+  }
 }
 
 }  // namespace
 
+/// \param argv optionally a part of the names of the rows wanted.
 int main(int argc, char** argv) {
-  addPlaneRows<float>();
-  addTriangleRows<float>();
-  addSolverRows<float>();
-  addPlaneRows<double>();
-  addTriangleRows<double>();
-  addSolverRows<double>();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  const std::string_view filter = argc > 1 ? argv[1] : "";
+  // In the second-level cache, and through memory as in the paper.
+  for (const std::size_t count : {2048U, 1U << 20}) printTable(count, filter);
 }
