@@ -27,8 +27,11 @@ double cellHalfSize(const LatticeMap& map, const Coord& block) {
 /// A vertex no farther than this, in lattice units, beyond that part of its cell is put back into it: surfaces that lie
 /// on lattice planes have all their vertices there, give or take rounding.
 constexpr double kSnap = 1e-4;
-/// Nor does a vertex leave its cell to come nearer to its planes by less than this, in voxels.
-constexpr double kFlatness = 1e-3;
+/// Nor does a vertex leave its cell if its planes stay nearer than this, in voxels, or nearer than `kFit` times what
+/// they are from its free place: where noise keeps them from meeting, vertices outside their cells fold faces and are
+/// no more exact. Beside creases the free place is many times nearer. With kFit 1 instead of 2, noise of 0.1 voxel and
+/// plain gradients, eight times as many vertices are drawn back, and the dragon takes twice as long.
+constexpr double kFlatness = 1e-3, kFit = 2;
 
 float reach(const Vec3f& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
 
@@ -247,7 +250,7 @@ struct BlockVertexSolver::Scratch {
       return free;
     } else {
       safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
-      if (planeError(safe) <= planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
+      if (planeError(safe) <= kFit * kFit * planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
     block.out.doubts->vertices.push_back(

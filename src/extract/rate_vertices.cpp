@@ -12,6 +12,7 @@
 #include "extract/vertex_solver.h"
 #include "mesh/faces.h"
 #include "pdc/math/solvers.h"
+#include "pdc/sample/normal_noise.h"
 
 namespace pdc::detail {
 namespace {
@@ -19,6 +20,12 @@ namespace {
 /// Eigenvalues of Σnnᵀ above this share of the trace count: two planes at 26°. Noise of 0.1 voxels in distances leaves
 /// flat parts at some 0.02.
 constexpr double kRankShare = 0.05;
+
+/// Error of a plane from distances over its σn: at noises of 0.02 and 0.1 voxel vertices on flat parts are off by half
+/// of that.
+constexpr double kPlaneError = 0.5;
+
+constexpr double square(double x) { return x * x; }
 
 /// What the planes of a vertex say of it.
 struct Rating {
@@ -34,7 +41,7 @@ struct Planes {
   std::array<Vec3d, kMax> normal;
   std::array<double, kMax> distance;
   int size = 0;
-  double known = 0;  ///< Variance of the distances as far as the source knows it, in voxels squared.
+  double known = 0;  ///< Variance of the distances as far as the source tells it, in voxels squared.
 
   void add(const Vec3d& n, double d) {
     if (n == Vec3d{} || size == kMax) return;
@@ -63,7 +70,7 @@ Rating rate(const Planes& planes) {
     inverses += 1 / value;
   }
   const double seen = planes.size > rank ? squares / (planes.size - rank) : 0;
-  rating.variance = static_cast<float>(std::max(seen, planes.known) * inverses);
+  rating.variance = static_cast<float>((seen + planes.known) * inverses);
   rating.rank = static_cast<std::uint8_t>(std::max(rank, 1));
   rating.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
   return rating;
@@ -72,8 +79,13 @@ Rating rate(const Planes& planes) {
 /// Rates the vertices of one block after another. For one thread; large: keep it off the stack.
 class BlockRater {
  public:
-  explicit BlockRater(const HermiteSource& source)
-      : mSource(source), mMap(source.map()), mNoise(source.knowsSigma() ? std::make_unique<PlaneNoise>() : nullptr) {}
+  /// \param normalNoise of the source's normals: noise of values turns normals by about as much as it moves crossings,
+  /// in voxels.
+  BlockRater(const HermiteSource& source, double normalNoise)
+      : mSource(source),
+        mMap(source.map()),
+        mNoise(source.knowsSigma() ? std::make_unique<PlaneNoise>() : nullptr),
+        mNormalVariance(square(normalNoise)) {}
 
   void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const Mesh& mesh,
            Buffer<Rating>& ratings) {
@@ -91,14 +103,15 @@ class BlockRater {
       const std::uint64_t vertex = topology.firstVertex + i;
       const Vec3d at = vecCast<double>(mesh.positions[vertex]);
       Planes planes;
-      if (mNoise != nullptr) planes.known = meanVariance(mPatches.patch(i), edges);
       const auto add = [&](const Vec3d& n, const Vec3d& point) {
         planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
       };
       if (const FeaturePlanes::Patch* feature = mFeatures.find(i)) {
+        planes.known = square(kPlaneError * static_cast<double>(feature->sigmaNormal));
         for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
       } else {
+        planes.known = mNoise != nullptr ? meanVariance(mPatches.patch(i), edges) : mNormalVariance;
         addCrossings(mPatches.patch(i), edges, add);
       }
       ratings[vertex] = rate(planes);
@@ -131,6 +144,7 @@ class BlockRater {
   const HermiteSource& mSource;
   const LatticeMap& mMap;
   const std::unique_ptr<PlaneNoise> mNoise;  ///< Null: the source knows none.
+  const double mNormalVariance;
   HermiteBlock mHermite;
   PatchSums mPatches;
   std::vector<SurfacePatch> mForSource;
@@ -181,7 +195,7 @@ void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, cons
                   const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
   Buffer<Rating> ratings(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
-      [&] { return std::make_unique<BlockRater>(source); });
+      [&, noise = normalNoise(source, monitor)] { return std::make_unique<BlockRater>(source, noise); });
   BlockProgress progress(monitor, "confidence", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
     BlockRater& rater = *raters.local();

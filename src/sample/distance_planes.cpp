@@ -18,12 +18,12 @@ constexpr float kEvenCos = 0.999F;
 
 PlaneTolerance tolerance(double noise) {
   const auto n = static_cast<float>(noise);
-  return {.error = 0.04F + 2 * n, .usual = 0.001F + 0.5F * n, .kink = 0.01F + 2 * n};
+  return {.error = 0.04F + 2 * n, .usual = 0.001F + 2 * n, .kink = 0.005F + n};
 }
 
-/// Where slopes from both sides differ by less, in every voxel about a cell, no crease turns by more than 20°, or
+/// Where slopes from both sides differ by less, at all corners of a cell, no crease turns by more than 20° there, or
 /// the noise hides it. Plain gradients miss one that turns by 30° by 0.06 voxel.
-float creaseKink(double noise) { return std::max(0.2F, tolerance(noise).kink); }
+float creaseKink(double noise) { return static_cast<float>(std::max(0.2, 0.01 + 2 * noise)); }
 
 /// A side this far from where all sides meet, in voxels, does not meet them.
 double missed(double noise) { return 0.1 + 2 * noise; }
@@ -33,7 +33,10 @@ double missed(double noise) { return 0.1 + 2 * noise; }
 double margin(double noise) { return std::min(0.5, 5 * noise); }
 
 /// σn of sides: they are made of many samples.
-float sideSigma(double noise) { return static_cast<float>(std::max(0.01, 0.3 * noise)); }
+float sideSigma(double noise) { return static_cast<float>(std::max(0.01, 0.7 * noise)); }
+
+/// Sides that weigh less than this share of the heaviest are samples that noise has turned aside.
+double leastShare(double noise) { return std::min(0.1, 10 * noise * noise); }
 
 /// What is expected of a sample's normal: one-sided slopes of second order double and more the noise of values.
 double normalNoise(double noise) { return 4 * noise; }
@@ -82,15 +85,15 @@ class PlaneFinder {
     read(mWindow);
   }
 
-  /// Looks for kinks about patch i of the block.
+  /// Notes patch i of the block if there are kinks at its cell.
   void expect(std::size_t i) {
     const Coord cell = cellOf(mBlock.patches[i]);
-    if (mKinks.noneAbout(cell)) return;
+    if (mKinks.noneAt(cell)) return;
     mVoxels.expect(cell);
     mKinked[mKinkedCount++] = static_cast<std::uint16_t>(i);
   }
 
-  /// Finds the planes of those patches about which there are some.
+  /// Finds the planes of the patches noted.
   void run() {
     for (int i = 0; i < mKinkedCount; ++i) run(mKinked[i]);
   }
@@ -103,6 +106,7 @@ class PlaneFinder {
     mVoxels.gather(mCell, mSamples);
     SurfaceSides sides = findSides(mSamples, normalNoise(mModel.noise));
     if (sides.count == 0) return;
+    sides.dropLight(leastShare(mModel.noise));
     gatherCrossings(patch);
     settle(sides);
   }
@@ -230,7 +234,7 @@ class PlaneFinder {
   VoxelPlanes mVoxels;
   SurfaceSamples mSamples;
   static constexpr int kMostPatches = kBlockSize * kBlockSize * kBlockSize * 4;
-  std::array<std::uint16_t, kMostPatches> mKinked;  ///< Patches about which there are kinks.
+  std::array<std::uint16_t, kMostPatches> mKinked;  ///< Patches at whose cells there are kinks.
   int mKinkedCount = 0;
   std::uint32_t mPatch = 0;
   Coord mCell{};

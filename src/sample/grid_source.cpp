@@ -57,7 +57,7 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
 constexpr double kSlopeError = 0.15;
 
 /// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
-constexpr double kMostNoise = 0.13;
+constexpr double kMostNoise = 0.3;
 
 /// \returns nothing where crossings are all there is to take planes from.
 std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeDistance,

@@ -5,11 +5,11 @@
 namespace pdc::detail {
 
 void Kinks::find(int row) {
-  static_assert(kLanes >= kVoxels);
-  // The last rows' lanes read beyond what they need, but not beyond the window: it has two more planes of points.
-  static_assert(DistanceWindow::index(9, 9, -1) + kLanes + 2 * DistanceWindow::kStep[0] <=
+  static_assert(kLanes >= kBlockPoints);
+  // The last rows' lanes read beyond what they need, but not beyond the window: it has three more planes of points.
+  static_assert(DistanceWindow::index(8, 8, 0) + kLanes + 2 * DistanceWindow::kStep[0] <=
                 DistanceWindow::index(11, 11, 11) + 1);
-  const float* first = &mWindow.value[DistanceWindow::index(row / kVoxels - 1, row % kVoxels - 1, -1)];
+  const float* first = &mWindow.value[DistanceWindow::index(row / kBlockPoints, row % kBlockPoints, 0)];
   const float tolerance = mTolerance;
   forEachBlock(mLevel, 1, [&](std::size_t) {
     std::array<std::int32_t, kLanes> kinked;
@@ -22,21 +22,21 @@ void Kinks::find(int row) {
       kinked[lane] = any;
     });
     unsigned bits = 0;
-    for (int z = 0; z < kVoxels; ++z) bits |= static_cast<unsigned>(kinked[z]) << z;
+    for (int z = 0; z < kBlockPoints; ++z) bits |= static_cast<unsigned>(kinked[z]) << z;
     mRow[row] = static_cast<std::uint16_t>(bits);
   });
   mKnown.set(static_cast<std::size_t>(row));
 }
 
-bool Kinks::noneAbout(const Coord& cell) {
+bool Kinks::noneAt(const Coord& cell) {
   unsigned any = 0;
-  for (int x = 0; x < 4; ++x)
-    for (int y = 0; y < 4; ++y) {
-      const int row = kVoxels * (cell[0] + x) + cell[1] + y;
+  for (int x = 0; x < 2; ++x)
+    for (int y = 0; y < 2; ++y) {
+      const int row = kBlockPoints * (cell[0] + x) + cell[1] + y;
       if (!mKnown.test(static_cast<std::size_t>(row))) find(row);
       any |= mRow[row];
     }
-  return (any >> cell[2] & 15) == 0;
+  return (any >> cell[2] & 3) == 0;
 }
 
 }  // namespace pdc::detail

@@ -29,8 +29,8 @@ struct OneSidedSlopes {
   float below, above;
 };
 
-/// The voxels of a block and about it, -1 to 9 on each axis, whose slopes from both sides are known and differ along
-/// some axis: a crease's bisector passes by. Found a row at a time, as they are asked for.
+/// The points of a block whose slopes from both sides are known and differ along some axis: a crease's bisector passes
+/// by. Found a row at a time, as they are asked for.
 class Kinks {
  public:
   /// \param window must outlive this. \param tolerance by how much slopes may differ. \param level changes no bit of
@@ -38,19 +38,17 @@ class Kinks {
   Kinks(const DistanceWindow& window, float tolerance, SimdLevel level = bestSimdLevel())
       : mWindow(window), mTolerance(tolerance), mLevel(level) {}
 
-  /// True if there are none in the 4×4×4 voxels about a cell.
-  [[nodiscard]] bool noneAbout(const Coord& cell);
+  /// True if there are none at the corners of a cell. A bisector that passes between them is next to one.
+  [[nodiscard]] bool noneAt(const Coord& cell);
 
  private:
-  static constexpr int kVoxels = kBlockPoints + 2;
-
   void find(int row);
 
   const DistanceWindow& mWindow;
   float mTolerance;
   SimdLevel mLevel;
-  std::bitset<kVoxels * kVoxels> mKnown;
-  std::array<std::uint16_t, kVoxels * kVoxels> mRow;  ///< By 11 (x + 1) + y + 1; bit z + 1.
+  std::bitset<kBlockPoints * kBlockPoints> mKnown;
+  std::array<std::uint16_t, kBlockPoints * kBlockPoints> mRow;  ///< By 9x + y; bit z.
 };
 
 }  // namespace pdc::detail

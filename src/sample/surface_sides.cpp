@@ -151,6 +151,13 @@ SurfaceSide fitSide(const Moments& moments, double normalNoise) {
 
 }  // namespace
 
+void SurfaceSides::dropLight(double share) {
+  double heaviest = 0;
+  for (const SurfaceSide& s : all()) heaviest = std::max(heaviest, s.weight);
+  for (int i = count - 1; i >= 0; --i)
+    if (side[i].weight < share * heaviest) drop(i);
+}
+
 SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
   SurfaceSides sides;
   forEachBlock(level, 1, [&](std::size_t) {

@@ -32,6 +32,8 @@ struct SurfaceSides {
 
   [[nodiscard]] std::span<const SurfaceSide> all() const { return {side.data(), static_cast<std::size_t>(count)}; }
   void drop(int i) { side[i] = side[--count]; }
+  /// Drops the sides that weigh less than `share` of the heaviest.
+  void dropLight(double share);
 };
 
 /// Sorts samples into sides by their normals: the heaviest first, then what is left of them. Spoils the samples'

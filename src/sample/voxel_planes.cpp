@@ -13,7 +13,7 @@ namespace pdc::detail {
 namespace {
 
 /// Mixed second differences up to this are curvature, not a crease that cuts through an octant.
-constexpr float kCurvature = 0.04F;
+constexpr float kCurvature = 0.03F;
 /// Samples whose foot is this far from a cell, in voxels, tell it nothing.
 constexpr float kFootReach = 1.2F;
 

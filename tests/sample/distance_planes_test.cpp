@@ -132,17 +132,28 @@ TEST(SurfaceSides, AnEdgeHasTwoThatMeetOnIt) {
   }
 }
 
+TEST(SurfaceSides, LightOnesAreDropped) {
+  SurfaceSides sides;
+  for (const double weight : {0.3, 2.0, 0.1}) sides.side[sides.count++].weight = weight;
+  sides.dropLight(0.05);
+  EXPECT_EQ(sides.count, 3);
+  sides.dropLight(0.1);
+  ASSERT_EQ(sides.count, 2);
+  EXPECT_EQ(sides.side[0].weight, 0.3);
+  EXPECT_EQ(sides.side[1].weight, 2.0);
+}
+
 TEST(Kinks, SmoothSurfacesHaveNone) {
   const DistanceWindow w = window(ball);
   Kinks kinks(w, kTolerance.kink);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
-      for (int z = 0; z < 8; ++z) EXPECT_TRUE(kinks.noneAbout({x, y, z}));
+      for (int z = 0; z < 8; ++z) EXPECT_TRUE(kinks.noneAt({x, y, z}));
 }
 
 TEST(Kinks, CellsAtAnEdgeHaveSome) {
   const DistanceWindow w = window(wedge);
-  EXPECT_FALSE(Kinks(w, kTolerance.kink).noneAbout({4, 4, 4}));
+  EXPECT_FALSE(Kinks(w, kTolerance.kink).noneAt({4, 4, 4}));
 }
 
 TEST(Kinks, DoNotDependOnTheProcessor) {
@@ -150,7 +161,7 @@ TEST(Kinks, DoNotDependOnTheProcessor) {
   Kinks best(w, kTolerance.kink), baseline(w, kTolerance.kink, SimdLevel::kBaseline);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
-      for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAbout({x, y, z}), baseline.noneAbout({x, y, z}));
+      for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAt({x, y, z}), baseline.noneAt({x, y, z}));
 }
 
 }  // namespace
