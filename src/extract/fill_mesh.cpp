@@ -18,6 +18,9 @@ namespace {
 /// (about 64 a block, 48 bytes each) stay in a second-level cache.
 constexpr std::size_t kWindowBlocks = 256;
 
+/// Room for the vertices that certifying may add, as a share of all: so that they do not move the rest.
+constexpr double kRoomForFans = 1.0 / 256;
+
 /// Ends of windows: runs of whole slabs of blocks with the same x.
 std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
   const std::size_t least = kWindowBlocks * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -34,11 +37,25 @@ std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
   return ends;
 }
 
+/// The most vertices that a window has.
+std::size_t largestWindow(const Topology& topology, const std::vector<std::size_t>& ends) {
+  std::uint64_t most = 0, first = 0;
+  for (const std::size_t end : ends) {
+    const std::uint64_t next = end < topology.blocks.size() ? topology.blocks[end].firstVertex : topology.vertexCount;
+    most = std::max(most, next - first);
+    first = next;
+  }
+  return most;
+}
+
 }  // namespace
 
 VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
                       const ContourOptions& options, Mesh& mesh, Doubts* doubts, const Monitor& monitor,
                       SimdLevel level) {
+  if (doubts != nullptr)
+    mesh.positions.reserve(topology.vertexCount +
+                           static_cast<std::size_t>(kRoomForFans * static_cast<double>(topology.vertexCount)));
   mesh.positions.resize(topology.vertexCount);
   if (options.normals) mesh.normals.resize(topology.vertexCount);
   mesh.quads.resize(topology.quadCount);
@@ -52,15 +69,15 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
   const BlockFaceWriter faces(blocks, topology, source.map(), mesh.quads.data(), level);
   BlockProgress progress(monitor, "contour", blocks.coords.size());
 
-  Buffer<VertexError> current, previous;
+  const std::vector<std::size_t> ends = windowEnds(blocks.coords);
+  const std::size_t most = largestWindow(topology, ends);
+  Buffer<VertexError> current(most), previous(most);
   std::uint64_t currentFirst = 0, previousFirst = 0;
   std::size_t begin = 0;
-  for (const std::size_t end : windowEnds(blocks.coords)) {
-    const std::uint64_t next = end < blocks.coords.size() ? topology.blocks[end].firstVertex : topology.vertexCount;
+  for (const std::size_t end : ends) {
     current.swap(previous);
     previousFirst = currentFirst;
     currentFirst = topology.blocks[begin].firstVertex;
-    if (current.size() < next - currentFirst) current.resize(next - currentFirst);
     const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, current.data(),
                            currentFirst, nullptr};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {

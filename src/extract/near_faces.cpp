@@ -115,19 +115,14 @@ NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReac
     : mTests(tests),
       mToLattice(tests.map().affine() ? inverse(tests.map().jacobian({})) : Mat3d::identity()),
       mOrigin(tests.map().affine() ? tests.map().position({}) : Vec3d{}),
-      mFarOf(tests.rings().blockCount(), -1),
+      mFar(tests.rings().blockCount(), farReaching),
+      mReach(mFar.size(), kCellReach),
       mLargestReach(kCellReach) {
   std::vector<double> reach(farReaching.size());
   tbb::parallel_for(std::size_t{0}, reach.size(), [&](std::size_t i) { reach[i] = reachOf(farReaching[i]); });
   for (std::size_t i = 0; i < farReaching.size(); ++i) {
-    const EdgeRef& e = farReaching[i];
-    std::int32_t& place = mFarOf[e.block];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(mFar.size());
-      mFar.emplace_back();
-    }
-    mFar[place].edges[e.axis()].set(e.x(), e.y(), e.z());
-    mFar[place].reach = std::max(mFar[place].reach, reach[i]);
+    double& most = mReach[mFar.place(farReaching[i].block)];
+    most = std::max(most, reach[i]);
     mLargestReach = std::max(mLargestReach, reach[i]);
   }
 }
@@ -145,26 +140,36 @@ double NearFaces::reachOf(const EdgeRef& e) const {
   return reach;
 }
 
+double NearFaces::reachIn(std::int32_t block) const {
+  const std::int32_t far = mFar.place(block);
+  return far < 0 ? kCellReach : mReach[far];
+}
+
 template <typename Visit>
-void NearFaces::forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const {
-  static const FarFaces kNoFarFaces;
-  const FarFaces& farFaces = mFarOf[block] < 0 ? kNoFarFaces : mFar[mFarOf[block]];
+bool NearFaces::forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const {
+  static const CellMask kNoEdges;
+  const std::int32_t farPlace = mFar.place(block);
   const Coord& coord = mTests.rings().blockCoord(block);
-  const Window near(low, high, kCellReach, coord), far(low, high, std::max(farFaces.reach, kCellReach), coord);
+  const Window near(low, high, kCellReach, coord), far(low, high, reachIn(block), coord);
   const BlockTopology& topology = mTests.rings().block(block);
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    const CellMask& farEdges = farPlace < 0 ? kNoEdges : mFar.edges(farPlace, axis);
     for (int x = far.beginX(); x < far.endX(); ++x) {
       const std::uint64_t edges = topology.edges[axis].word[x];
-      std::uint64_t wanted = (edges & near.word(x)) | (farFaces.edges[axis].word[x] & far.word(x));
+      std::uint64_t wanted = (edges & near.word(x)) | (farEdges.word[x] & far.word(x));
       for (; wanted != 0; wanted &= wanted - 1) {
         const int bit = std::countr_zero(wanted);
         const std::uint64_t before = bitCount(edges & ((std::uint64_t{1} << bit) - 1));
-        visit(edgeAt(block, axis, x, bit), topology.firstQuad + topology.quadsBefore[kBlockSize * axis + x] + before);
+        if (!visit(edgeAt(block, axis, x, bit),
+                   topology.firstQuad + topology.quadsBefore[kBlockSize * axis + x] + before))
+          return false;
       }
     }
+  }
+  return true;
 }
 
-/// Calls visit(edge, number of its face) for all faces that may reach into a box of lattice space.
+/// Calls visit(edge, number of its face) for all faces that may reach into a box of lattice space, until it says no.
 template <typename Visit>
 void NearFaces::forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const {
   Coord from, to;
@@ -175,8 +180,9 @@ void NearFaces::forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) 
   for (Coord b = from; b[0] <= to[0]; ++b[0])
     for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
       for (b[2] = from[2]; b[2] <= to[2]; ++b[2])
-        if (const std::int32_t block = mTests.rings().find(b); block != BlockIndex::kMissing)
-          forEachIn(block, low, high, visit);
+        if (const std::int32_t block = mTests.rings().find(b);
+            block != BlockIndex::kMissing && !forEachIn(block, low, high, visit))
+          return;
 }
 
 /// Box, in lattice space, of the face being looked at.
@@ -199,7 +205,7 @@ inline std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e, const Scr
   return {low, high};
 }
 
-inline void NearFaces::search(const EdgeRef& e, Scratch& own, const std::vector<EdgeRef>* foundFrom,
+inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom,
                               std::vector<Offence>& out) const {
   own.corners.clear();
   own.planes.clear();
@@ -216,14 +222,16 @@ inline void NearFaces::search(const EdgeRef& e, Scratch& own, const std::vector<
     for (const Vec3f& p : own.corners[i]) box.add(float4(p));
   }
   const auto isFoundFrom = [&](const EdgeRef& other) {
-    return foundFrom != nullptr && other < e && std::binary_search(foundFrom->begin(), foundFrom->end(), other);
+    return foundFrom != nullptr && other < e && foundFrom->has(other);
   };
+  const auto goOn = [&] { return foundFrom != nullptr || out.empty(); };
+  if (!goOn()) return;
   const auto [low, high] = latticeBox(e, own);
   forEachNear(low, high, [&](const EdgeRef& other, std::uint64_t face) {
-    if (other == e) return;
+    if (other == e) return true;
     if (const Quad* quad = mTests.quad(face)) {
       const std::array<Vec3f, 4> corners = mTests.corners(*quad);
-      if (box.apartFrom(Box(corners)) || isFoundFrom(other)) return;
+      if (box.apartFrom(Box(corners)) || isFoundFrom(other)) return true;
       // Nearly always all of the quad is on one side of the face's triangles.
       for (std::size_t i = 0; i < own.own.size(); ++i) {
         if (own.planes[i].clears(*quad, corners)) continue;
@@ -235,6 +243,7 @@ inline void NearFaces::search(const EdgeRef& e, Scratch& own, const std::vector<
       for (const Triangle& t : own.other)
         for (std::size_t i = 0; i < own.own.size(); ++i) compare(e, own, i, other, t, mTests.corners(t), out);
     }
+    return goOn();
   });
 }
 
@@ -247,10 +256,11 @@ inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, std::size_t
 
 std::vector<Offence> NearFaces::findOffences(const std::vector<EdgeRef>& active) const {
   tbb::enumerable_thread_specific<Scratch> scratch;
+  const EdgeSet all(mTests.rings().blockCount(), active);
   std::vector<Offence> found = gather<Offence>(active.size(), [&](std::size_t i, std::vector<Offence>& out) {
     Scratch& own = scratch.local();
     mTests.triangles(active[i], mTests.rings().face(active[i]), own.own);
-    forEachBlock(mLevel, 1, [&](std::size_t) { search(active[i], own, &active, out); });
+    forEachBlock(mLevel, 1, [&](std::size_t) { search(active[i], own, &all, out); });
   });
   tbb::parallel_sort(found.begin(), found.end());
   return found;

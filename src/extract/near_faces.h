@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "extract/edge_set.h"
 #include "extract/face_tests.h"
 #include "pdc/math/simd_level.h"
 
@@ -33,24 +34,21 @@ class NearFaces {
                                                           const std::vector<Quad>& turned) const;
 
  private:
-  /// The far-reaching faces of a block.
-  struct FarFaces {
-    std::array<CellMask, 3> edges;
-    double reach = 0;  ///< How far they reach from the low ends of their edges along an axis, in lattice units.
-  };
   struct Scratch;
 
   [[nodiscard]] double reachOf(const EdgeRef& e) const;
+  /// How far faces of a block reach from the low ends of their edges along an axis, in lattice units.
+  [[nodiscard]] double reachIn(std::int32_t block) const;
   /// Where a vertex is in lattice space; for affine maps.
   [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
   [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e, const Scratch& own) const;
   template <typename Visit>
   void forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const;
   template <typename Visit>
-  void forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const;
+  bool forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const;
   /// Appends the offences of the face in `own`.
-  /// \param foundFrom sorted; offences of a face of these that comes before are left to it. May be null.
-  void search(const EdgeRef& e, Scratch& own, const std::vector<EdgeRef>* foundFrom, std::vector<Offence>& out) const;
+  /// \param foundFrom offences of a face of these that comes before are left to it. Null: one offence is enough.
+  void search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom, std::vector<Offence>& out) const;
   void compare(const EdgeRef& e, const Scratch& own, std::size_t i, const EdgeRef& other, const Triangle& t,
                const TriangleCorners& corners, std::vector<Offence>& out) const;
 
@@ -58,8 +56,8 @@ class NearFaces {
   const SimdLevel mLevel = bestSimdLevel();
   const Mat3d mToLattice;
   const Vec3d mOrigin;
-  std::vector<std::int32_t> mFarOf;  ///< Of each block, its place in mFar, or -1.
-  std::vector<FarFaces> mFar;
+  const EdgeSet mFar;          ///< The far-reaching faces.
+  std::vector<double> mReach;  ///< Of those of each block that has some.
   double mLargestReach;
 };
 

@@ -12,7 +12,7 @@
 
 namespace pdc::detail {
 
-ByteReader::ByteReader(const std::filesystem::path& path) : mDescriptor(openForReading(path)), mBuffer(1 << 20) {
+ByteReader::ByteReader(const std::filesystem::path& path) : mDescriptor(openForReading(path)), mBuffer(1 << 17) {
   mSize = static_cast<std::uint64_t>(::lseek(mDescriptor, 0, SEEK_END));
   mEnd = mSize;
 }

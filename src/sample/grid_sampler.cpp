@@ -152,7 +152,7 @@ class TypedGridSampler final : public GridSampler {
     const float low = mLow, high = mHigh;
     for (float& v : window.value) {
       const float scaled = v * scale;
-      v = (v > low) & (v < high) ? scaled : std::numeric_limits<float>::quiet_NaN();
+      v = ((v > low) & (v < high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
     }
   }
 

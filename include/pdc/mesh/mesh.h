@@ -18,7 +18,7 @@ namespace detail {
 /// system's for handing it out page by page.
 void* allocateLarge(std::size_t bytes);
 void freeLarge(void* p) noexcept;
-inline constexpr std::size_t kLargeBytes = std::size_t{4} << 20;
+inline constexpr std::size_t kLargeBytes = std::size_t{1} << 19;
 }  // namespace detail
 
 /// An allocator that leaves trivial elements uninitialised on resize, so that large arrays are first touched by the
