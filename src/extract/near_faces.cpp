@@ -140,17 +140,12 @@ double NearFaces::reachOf(const EdgeRef& e) const {
   return reach;
 }
 
-double NearFaces::reachIn(std::int32_t block) const {
-  const std::int32_t far = mFar.place(block);
-  return far < 0 ? kCellReach : mReach[far];
-}
-
 template <typename Visit>
 bool NearFaces::forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const {
   static const CellMask kNoEdges;
   const std::int32_t farPlace = mFar.place(block);
   const Coord& coord = mTests.rings().blockCoord(block);
-  const Window near(low, high, kCellReach, coord), far(low, high, reachIn(block), coord);
+  const Window near(low, high, kCellReach, coord), far(low, high, farPlace < 0 ? kCellReach : mReach[farPlace], coord);
   const BlockTopology& topology = mTests.rings().block(block);
   for (int axis = 0; axis < 3; ++axis) {
     const CellMask& farEdges = farPlace < 0 ? kNoEdges : mFar.edges(farPlace, axis);

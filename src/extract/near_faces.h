@@ -37,8 +37,6 @@ class NearFaces {
   struct Scratch;
 
   [[nodiscard]] double reachOf(const EdgeRef& e) const;
-  /// How far faces of a block reach from the low ends of their edges along an axis, in lattice units.
-  [[nodiscard]] double reachIn(std::int32_t block) const;
   /// Where a vertex is in lattice space; for affine maps.
   [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
   [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e, const Scratch& own) const;
@@ -57,7 +55,8 @@ class NearFaces {
   const Mat3d mToLattice;
   const Vec3d mOrigin;
   const EdgeSet mFar;          ///< The far-reaching faces.
-  std::vector<double> mReach;  ///< Of those of each block that has some.
+  std::vector<double> mReach;  ///< Of each such block: how far they reach from the low ends of their
+  ///< edges along an axis, in lattice units.
   double mLargestReach;
 };
 

@@ -9,10 +9,10 @@
 
 #include "extract/block_progress.h"
 #include "extract/patch_sums.h"
+#include "extract/sigma_normal.h"
 #include "extract/vertex_solver.h"
 #include "mesh/faces.h"
 #include "pdc/math/solvers.h"
-#include "pdc/sample/normal_noise.h"
 
 namespace pdc::detail {
 namespace {
@@ -195,7 +195,9 @@ void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, cons
                   const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
   Buffer<Rating> ratings(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
-      [&, noise = normalNoise(source, monitor)] { return std::make_unique<BlockRater>(source, noise); });
+      [&, noise = SigmaNormal::fromData(source, blocks, monitor).noise()] {
+        return std::make_unique<BlockRater>(source, noise);
+      });
   BlockProgress progress(monitor, "confidence", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
     BlockRater& rater = *raters.local();

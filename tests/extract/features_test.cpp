@@ -89,7 +89,7 @@ TEST_F(FeaturesTest, NoiseBlursEdgesByAboutAsMuch) {
 /// Noise that grows from 0 to 0.2 voxels across the solid, and what single σn make of it.
 TEST_F(FeaturesTest, ASigmaGridBeatsEverySingleSigmaInBothHalves) {
   constexpr unsigned kPoses = 20;
-  const std::vector<double> sigmas{0.01, 0.1, 1};
+  const std::vector<double> sigmas{0.01, 0.05, 0.1, 0.2, 0.5, 1};
   std::vector<eval::Figures> single(sigmas.size());
   eval::Figures known;
   for (unsigned i = kPose; i < kPose + kPoses; ++i) {
