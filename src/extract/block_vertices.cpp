@@ -33,6 +33,11 @@ constexpr double kSnap = 1e-4;
 /// plain gradients, eight times as many vertices are drawn back, and the dragon takes twice as long.
 constexpr double kFlatness = 1e-3, kFit = 2;
 
+/// Exact normals tell of a crease if a vertex misses their planes by no more, in voxels; those that agree to within 26°
+/// are of one side.
+constexpr double kExact = 0.01;
+constexpr float kSameSide = 0.9F;
+
 float reach(const Vec3f& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
 
 template <typename T>
@@ -77,6 +82,7 @@ struct BlockVertexSolver::Scratch {
         solver(sigma, halfSize),
         level(l),
         linear(map.affine() ? map.jacobian({}) : Mat3d{}),
+        exactNormals(source.exactNormals()),
         noise(source.knowsNoise() ? std::make_unique<PlaneNoise>() : nullptr) {
     samples.noisy = noise != nullptr;
   }
@@ -250,20 +256,33 @@ struct BlockVertexSolver::Scratch {
       return free;
     } else {
       safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
-      if (planeError(safe) <= kFit * kFit * planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
+      const double fit = exactNormals ? 1 : kFit;
+      if (planeError(safe) <= fit * fit * planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
     block.out.doubts->vertices.push_back(
-        {vertex, block.index, patch.cell, free, vecCast<float>(safe), creaseNormals(block)});
+        {vertex, block.index, patch.cell, free, vecCast<float>(safe), creaseNormals(block, x)});
     return free;
   }
 
-  [[nodiscard]] std::array<Vec3f, 4> creaseNormals(const BlockState& block) const {
+  /// The normals of the sides that meet at a vertex whose free place is `x`, where that is known.
+  [[nodiscard]] std::array<Vec3f, 4> creaseNormals(const BlockState& block, const Vec3d& x) const {
     std::array<Vec3f, 4> normals{};
+    std::size_t count = 0;
     const Mat3d toWorld = inverse(block.metric.M).transposed();
-    for (std::size_t i = 0; i < std::min(normals.size(), samples.features.size()); ++i) {
-      const Vec3d n = toWorld * vecCast<double>(samples.features[i].row);
-      normals[i] = vecCast<float>(n * (1 / length(n)));
+    const auto add = [&](const Vec3d& row) {
+      const Vec3d n = toWorld * row;
+      const double l = length(n);
+      if (!(l > 0)) return;
+      const Vec3f normal = vecCast<float>(n * (1 / l));
+      const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSameSide; };
+      if (count < normals.size() && std::none_of(normals.begin(), normals.begin() + count, alike))
+        normals[count++] = normal;
+    };
+    if (!samples.features.empty()) {
+      for (const FeaturePlanes::Plane& p : samples.features) add(vecCast<double>(p.row));
+    } else if (exactNormals && planeError(x) <= kExact * kExact) {
+      for (int i = 0; i < samples.size; ++i) add(samples.row[i]);
     }
     return normals;
   }
@@ -323,6 +342,7 @@ struct BlockVertexSolver::Scratch {
   const VertexSolver solver;
   const SimdLevel level;
   const Mat3d linear;  ///< Of an affine map.
+  const bool exactNormals;
   /// Of one normal, in lattice units: σn² G; or zero, if crossings have their own, which are in their rows.
   SymMat3<float> Sigma_n;
   HermiteBlock hermite;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "extract/crease_moves.h"
 #include "extract/fans.h"
 #include "extract/gather.h"
 #include "extract/near_faces.h"
@@ -20,6 +21,9 @@ namespace {
 constexpr std::array<float, 9> kShare{1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0};
 constexpr int kDrawnIn = static_cast<int>(kShare.size()) - 1;
 
+/// Where there are more offences, faces are folded by noise: no single move helps, and trying them takes long.
+constexpr std::size_t kFewOffences = 200, kFacesPerOffence = 20;
+
 class Certifier {
  public:
   Certifier(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology, const Doubts& doubts,
@@ -27,12 +31,15 @@ class Certifier {
       : mMap(source.map()),
         mRings(blocks, topology),
         mFans(source, blocks, mRings, mesh),
-        mFaces(mMap, mRings, mFans, doubts.vertices, mesh),
+        mFaces(mMap, mRings, mFans, mLoose, mesh),
         mLoose(doubts.vertices),
-        mDrawn(doubts.vertices.size()),
+        mFree(mLoose.size()),
+        mDrawn(mLoose.size()),
+        mCreaseMoves(mFaces, mLoose),
         mMesh(mesh) {}
 
   CertifyCounts run(const Doubts& doubts, const Monitor& monitor) {
+    std::transform(mLoose.begin(), mLoose.end(), mFree.begin(), [](const LooseVertex& v) { return v.place; });
     settle(doubts.quads);
     std::vector<EdgeRef> active = quadsAt(mLoose.size(), [](std::size_t i) { return i; });
     const NearFaces near(mFaces, active);
@@ -46,9 +53,9 @@ class Certifier {
     mCounts.uncertified = near.findOffences(stuck).size();
     mCounts.forcedDiagonals += doubts.forcedDiagonals;
     mCounts.fans = mFans.size();
-    for (const std::uint8_t drawn : mDrawn) {
-      mCounts.drawnIn += drawn == kDrawnIn;
-      mCounts.shortened += drawn > 0 && drawn < kDrawnIn;
+    for (std::size_t i = 0; i < mLoose.size(); ++i) {
+      mCounts.drawnIn += mDrawn[i] == kDrawnIn;
+      mCounts.shortened += mDrawn[i] < kDrawnIn && (mDrawn[i] > 0 || mCreaseMoves.moved(i));
     }
     mCounts.addedBoundaryEdges = mFans.replaceQuads();
     return mCounts;
@@ -61,19 +68,11 @@ class Certifier {
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 
-  [[nodiscard]] static CellRef cellOf(const LooseVertex& v) {
-    return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7};
-  }
-
   /// The quads at the loose vertices number(0) to number(n - 1), sorted.
   template <typename Number>
   [[nodiscard]] std::vector<EdgeRef> quadsAt(std::size_t n, Number&& number) const {
     std::vector<EdgeRef> quads = gather<EdgeRef>(n, [&](std::size_t i, std::vector<EdgeRef>& out) {
-      const LooseVertex& v = mLoose[number(i)];
-      const CellRef c = cellOf(v);
-      mRings.forEachEdge(c, [&](const EdgeRef& e, int edge) {
-        if (mRings.block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) out.push_back(e);
-      });
+      mRings.forEachEdgeAt(mLoose[number(i)], [&](const EdgeRef& e) { out.push_back(e); });
     });
     sortUnique(quads);
     return quads;
@@ -87,32 +86,66 @@ class Certifier {
     return mDrawn[i] < kDrawnIn ? i : -1;
   }
 
-  /// Answers the offences, each by the gentlest means left: the quad's other diagonal, drawing vertices back, fans,
-  /// split cells. \returns the faces that changed, sorted; appends those for which nothing is left to `stuck`.
-  [[nodiscard]] std::vector<EdgeRef> answer(const NearFaces& near, const std::vector<Offence>& offences,
+  /// Answers the offences, each by the gentlest means left: moving a vertex along its crease, the quad's other
+  /// diagonal, drawing vertices back, fans, split cells. \returns the faces that changed or wait for others to, sorted;
+  /// appends those for which nothing is left to `stuck`.
+  [[nodiscard]] std::vector<EdgeRef> answer(const NearFaces& near, std::vector<Offence> offences,
                                             std::vector<EdgeRef>& stuck) {
-    std::vector<EdgeRef> changed = turn(near, offences);
-    const auto turned = [&changed, n = changed.size()](const EdgeRef& e) {
-      return std::binary_search(changed.begin(), changed.begin() + static_cast<std::ptrdiff_t>(n), e);
+    std::vector<EdgeRef> changed = moveAlongCreases(near, offences);
+    const std::vector<EdgeRef> turnedEdges = turn(near, offences);
+    changed.insert(changed.end(), turnedEdges.begin(), turnedEdges.end());
+    const auto isTurned = [&](const EdgeRef& e) {
+      return std::binary_search(turnedEdges.begin(), turnedEdges.end(), e);
     };
-    std::vector<std::ptrdiff_t> draw;
+    std::vector<std::size_t> draw;
     std::vector<const Offence*> settled;
     for (const Offence& o : offences) {
-      if (turned(o.edge0) || turned(o.edge1)) continue;
+      if (isTurned(o.edge0) || isTurned(o.edge1)) continue;
       const std::size_t before = draw.size();
-      for (const Triangle& t : {o.triangle0, o.triangle1})
-        for (const std::uint32_t v : t)
-          if (const std::ptrdiff_t i = movable(v); i >= 0) draw.push_back(i);
+      forEachCorner(o, [&](std::uint32_t v) {
+        if (const std::ptrdiff_t i = movable(v); i >= 0) draw.push_back(static_cast<std::size_t>(i));
+      });
       if (draw.size() == before) settled.push_back(&o);
     }
     sortUnique(draw);
     const std::vector<EdgeRef> moved = drawBack(draw);
-    std::vector<EdgeRef> hardened;
-    for (const Offence* o : settled)
-      if (!harden(*o, hardened)) stuck.insert(stuck.end(), {o->edge0, o->edge1});
     changed.insert(changed.end(), moved.begin(), moved.end());
-    changed.insert(changed.end(), hardened.begin(), hardened.end());
+    for (const Offence* o : settled)
+      if (!harden(*o, changed)) stuck.insert(stuck.end(), {o->edge0, o->edge1});
     sortUnique(changed);
+    return changed;
+  }
+
+  template <typename Visit>
+  static void forEachCorner(const Offence& o, Visit&& visit) {
+    for (const Triangle& t : {o.triangle0, o.triangle1})
+      for (const std::uint32_t v : t) visit(v);
+  }
+
+  /// Moves vertices on creases to where their faces offend less, each a few times at most. Takes the offences beside
+  /// them out of the list: they wait for the next round. \returns the faces that changed and those that wait.
+  std::vector<EdgeRef> moveAlongCreases(const NearFaces& near, std::vector<Offence>& offences) {
+    if (offences.size() > std::max(kFewOffences, mMesh.quads.size() / kFacesPerOffence)) return {};
+    const std::vector<CreaseMove> moves =
+        mCreaseMoves.find(near, offences, [this](std::uint32_t v) { return movable(v); });
+    for (const CreaseMove& m : moves) {
+      mFree[m.loose] = m.place;
+      mDrawn[m.loose] = 0;
+      place(mLoose[m.loose], m.place);
+    }
+    std::vector<EdgeRef> changed = quadsAt(moves.size(), [&](std::size_t i) { return moves[i].loose; });
+    settle(changed);
+    std::vector<std::uint32_t> corners;
+    for (const EdgeRef& e : changed)
+      for (const std::uint32_t v : mRings.vertices(e)) corners.push_back(v);
+    sortUnique(corners);
+    std::erase_if(offences, [&](const Offence& o) {
+      bool waits = false;
+      forEachCorner(o,
+                    [&](std::uint32_t v) { waits = waits || std::binary_search(corners.begin(), corners.end(), v); });
+      if (waits) changed.insert(changed.end(), {o.edge0, o.edge1});
+      return waits;
+    });
     return changed;
   }
 
@@ -144,24 +177,20 @@ class Certifier {
   static Quad turned(const Quad& q) { return {q[1], q[2], q[3], q[0]}; }
 
   /// Draws loose vertices back by one step. \returns the quads at them, sorted.
-  std::vector<EdgeRef> drawBack(const std::vector<std::ptrdiff_t>& vertices) {
+  std::vector<EdgeRef> drawBack(const std::vector<std::size_t>& vertices) {
     tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
-      const std::ptrdiff_t v = vertices[i];
-      move(mLoose[v], kShare[++mDrawn[v]]);
+      const std::size_t k = vertices[i];
+      LooseVertex& v = mLoose[k];
+      place(v, v.safe + (mFree[k] - v.safe) * kShare[++mDrawn[k]]);
     });
-    std::vector<EdgeRef> moved =
-        quadsAt(vertices.size(), [&](std::size_t i) { return static_cast<std::size_t>(vertices[i]); });
+    std::vector<EdgeRef> moved = quadsAt(vertices.size(), [&](std::size_t i) { return vertices[i]; });
     settle(moved);
     return moved;
   }
 
-  void move(const LooseVertex& v, float share) {
-    const CellRef c = cellOf(v);
-    const Coord& b = mRings.blockCoord(v.block);
-    const Vec3d center{kBlockSize * double(b[0]) + c.x + 0.5, kBlockSize * double(b[1]) + c.y + 0.5,
-                       kBlockSize * double(b[2]) + c.z + 0.5};
-    const Vec3f x = v.safe + (v.free - v.safe) * share;
-    mMesh.positions[v.vertex] = vecCast<float>(mMap.position(center + vecCast<double>(x)));
+  void place(LooseVertex& v, const Vec3f& x) {
+    v.place = x;
+    mMesh.positions[v.vertex] = mFaces.worldPosition(v, x);
   }
 
   [[nodiscard]] bool stays(const Quad& ring) const {
@@ -206,9 +235,11 @@ class Certifier {
   QuadRings mRings;
   Fans mFans;
   FaceTests mFaces;
-  const std::vector<LooseVertex>& mLoose;
-  std::vector<std::uint8_t> mDrawn;  ///< How often each was drawn back.
-  std::vector<EdgeRef> mTurned;      ///< Quads whose diagonals were turned, sorted.
+  std::vector<LooseVertex> mLoose;
+  std::vector<Vec3f> mFree;          ///< By loose vertex: where it is drawn back from.
+  std::vector<std::uint8_t> mDrawn;  ///< By loose vertex: by how many steps it was drawn back from there.
+  CreaseMoves mCreaseMoves;
+  std::vector<EdgeRef> mTurned;  ///< Quads whose diagonals were turned, sorted.
   tbb::combinable<std::size_t> mForced{[] { return std::size_t{0}; }};
   Mesh& mMesh;
   CertifyCounts mCounts;

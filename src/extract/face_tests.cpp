@@ -47,6 +47,14 @@ bool FaceTests::facesForward(const EdgeRef& e, const Triangle& vertices, const T
   return false;
 }
 
+Vec3f FaceTests::worldPosition(const LooseVertex& v, const Vec3f& place) const {
+  const CellRef c = cellOf(v);
+  const Coord& b = mRings.blockCoord(v.block);
+  const Vec3d center{kBlockSize * double(b[0]) + c.x + 0.5, kBlockSize * double(b[1]) + c.y + 0.5,
+                     kBlockSize * double(b[2]) + c.z + 0.5};
+  return vecCast<float>(mMap.position(center + vecCast<double>(place)));
+}
+
 void FaceTests::triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const {
   out.clear();
   const Quad* q = quad(face);

@@ -28,6 +28,8 @@ class FaceTests {
     for (std::size_t i = 0; i < n; ++i) p[i] = mMesh.positions[vertices[i]];
     return p;
   }
+  /// \param place in lattice units from the centre of the vertex's cell.
+  [[nodiscard]] Vec3f worldPosition(const LooseVertex& v, const Vec3f& place) const;
   /// The quad that a face is, or null if it is a fan.
   [[nodiscard]] const Quad* quad(std::uint64_t face) const { return mFans.has(face) ? nullptr : &mMesh.quads[face]; }
   /// Replaces `out` by the triangles of face number `face`, the quad or fan of the edge.

@@ -14,11 +14,11 @@ struct LooseVertex {
   std::uint64_t vertex;
   std::int32_t block;
   std::uint16_t cell;  ///< 64x + 8y + z.
-  Vec3f free;          ///< Where its quadric wants it, in lattice units from the centre of the cell.
+  Vec3f place;         ///< In lattice units from the centre of the cell; at first where its quadric wants it.
   /// Where it is safe: in its cell, and in a strict cell among its own patch's crossings.
   Vec3f safe;
-  /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where the
-  /// vertex was placed without such.
+  /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where there
+  /// is none.
   std::array<Vec3f, 4> creaseNormals{};
 };
 

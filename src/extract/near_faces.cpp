@@ -8,8 +8,8 @@
 #include <bit>
 #include <cmath>
 
-#include "extract/float4.h"
 #include "extract/gather.h"
+#include "extract/triangle_filters.h"
 #include "extract/vertex_solver.h"
 #include "math/lane_loops.h"
 
@@ -46,61 +46,9 @@ class Window {
   std::uint64_t mWord = 0;
 };
 
-/// The plane of a triangle, for a quick look at what lies to one side of it.
-class TrianglePlane {
- public:
-  TrianglePlane(const Triangle& vertices, const TriangleCorners& corners)
-      : mVertices(vertices), mOrigin(vecCast<double>(corners[0])) {
-    const Vec3d u = vecCast<double>(corners[1]) - mOrigin, v = vecCast<double>(corners[2]) - mOrigin;
-    mNormal = cross(u, v);
-    // Several times what rounding can do to the sign of a triple product.
-    constexpr double kRounding = 1e-14;
-    mDoubt = kRounding * kRounding * dot(u, u) * dot(v, v);
-  }
-
-  /// True if other triangles, with these corners, meet this one in no more than a vertex or an edge that they share:
-  /// all corners that are not its own are strictly on one side. False says nothing.
-  template <std::size_t n>
-  [[nodiscard]] bool clears(const std::array<std::uint32_t, n>& vertices, const std::array<Vec3f, n>& corners) const {
-    int above = 0, under = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t v = vertices[i];
-      if (v == mVertices[0] || v == mVertices[1] || v == mVertices[2]) continue;
-      const Vec3d w = vecCast<double>(corners[i]) - mOrigin;
-      const double side = dot(w, mNormal);
-      if (!(side * side > mDoubt * dot(w, w))) return false;
-      ++(side > 0 ? above : under);
-    }
-    return (above == 0) != (under == 0);
-  }
-
- private:
-  Triangle mVertices;
-  Vec3d mOrigin, mNormal;
-  double mDoubt;
-};
-
 EdgeRef edgeAt(std::int32_t block, int axis, int x, int bit) {
   return {block, static_cast<std::uint16_t>(512 * axis + 64 * x + bit)};
 }
-
-/// A box in world space.
-struct Box {
-  Float4 low, high;
-
-  template <std::size_t n>
-  explicit Box(const std::array<Vec3f, n>& corners) : low(float4(corners[0])), high(low) {
-    for (std::size_t i = 1; i < n; ++i) add(float4(corners[i]));
-  }
-  void add(Float4 p) {
-    low = p < low ? p : low;
-    high = p > high ? p : high;
-  }
-  [[nodiscard]] bool apartFrom(const Box& b) const {
-    const auto gap = (low > b.high) | (b.low > high);
-    return (gap[0] | gap[1] | gap[2]) != 0;
-  }
-};
 
 }  // namespace
 
@@ -133,11 +81,19 @@ double NearFaces::reachOf(const EdgeRef& e) const {
   if (!mTests.map().affine()) return kFreeReach;
   const Coord at = mTests.rings().low(e);
   double reach = 0;
-  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e))) {
-    const Vec3d step = latticePosition(corner) - Vec3d{double(at[0]), double(at[1]), double(at[2])};
-    reach = std::max({reach, std::abs(step.x), std::abs(step.y), std::abs(step.z)});
-  }
+  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e))) reach = std::max(reach, distance(at, corner));
   return reach;
+}
+
+double NearFaces::distance(const Coord& at, const Vec3f& corner) const {
+  const Vec3d step = latticePosition(corner) - Vec3d{double(at[0]), double(at[1]), double(at[2])};
+  return std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
+}
+
+bool NearFaces::finds(const EdgeRef& e, const Vec3f& corner) const {
+  const std::int32_t place = mFar.place(e.block);
+  return place >= 0 && mFar.edges(place, e.axis()).test(e.x(), e.y(), e.z()) &&
+         distance(mTests.rings().low(e), corner) <= mReach[place];
 }
 
 template <typename Visit>
@@ -198,6 +154,15 @@ inline std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e, const Scr
       }
     }
   return {low, high};
+}
+
+std::vector<NearFaces::Face> NearFaces::facesAbout(const Vec3d& low, const Vec3d& high) const {
+  std::vector<Face> faces;
+  forEachNear(low, high, [&](const EdgeRef& edge, std::uint64_t face) {
+    faces.push_back({edge, face});
+    return true;
+  });
+  return faces;
 }
 
 inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom,

@@ -28,6 +28,18 @@ class NearFaces {
   /// sorted. Runs in parallel.
   [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active) const;
 
+  struct Face {
+    EdgeRef edge;
+    std::uint64_t number;
+  };
+  /// The faces that may reach into a box of lattice space.
+  [[nodiscard]] std::vector<Face> facesAbout(const Vec3d& low, const Vec3d& high) const;
+  /// Whether facesAbout and findOffences still find the edge's face everywhere if a corner of it lies there. For affine
+  /// maps.
+  [[nodiscard]] bool finds(const EdgeRef& e, const Vec3f& corner) const;
+  /// Where a corner is in lattice space; for affine maps.
+  [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
+
   /// For each of some edges whose faces are quads: whether there is no offence if its quad is `turned[i]` instead,
   /// which has the same corners. Runs in parallel.
   [[nodiscard]] std::vector<std::uint8_t> soundWhenTurned(const std::vector<EdgeRef>& edges,
@@ -37,8 +49,8 @@ class NearFaces {
   struct Scratch;
 
   [[nodiscard]] double reachOf(const EdgeRef& e) const;
-  /// Where a vertex is in lattice space; for affine maps.
-  [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
+  /// Of a corner from a lattice point, along the axis where it is largest, in lattice units.
+  [[nodiscard]] double distance(const Coord& at, const Vec3f& corner) const;
   [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e, const Scratch& own) const;
   template <typename Visit>
   void forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const;

@@ -20,6 +20,8 @@ struct CellRef {
   int x, y, z;
 };
 
+constexpr CellRef cellOf(const LooseVertex& v) { return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7}; }
+
 /// Finds one's way between cells, lattice edges and their quads in a finished topology.
 class QuadRings {
  public:
@@ -39,6 +41,9 @@ class QuadRings {
   /// Calls visit(EdgeRef, edge of the cell) for each of the cell's edges that has a quad.
   template <typename Visit>
   void forEachEdge(const CellRef& c, Visit&& visit) const;
+  /// Calls visit(EdgeRef) for each edge whose quad has the vertex.
+  template <typename Visit>
+  void forEachEdgeAt(const LooseVertex& v, Visit&& visit) const;
   /// The block of a block coordinate, or BlockIndex::kMissing.
   [[nodiscard]] std::int32_t find(const Coord& block) const { return mTopology.index.find(block); }
 
@@ -66,6 +71,14 @@ void QuadRings::forEachEdge(const CellRef& c, Visit&& visit) const {
     if (!mTopology.blocks[owner].edges[axis].test(x & 7, y & 7, z & 7)) continue;
     visit(EdgeRef{owner, static_cast<std::uint16_t>(512 * axis + 64 * (x & 7) + 8 * (y & 7) + (z & 7))}, e);
   }
+}
+
+template <typename Visit>
+void QuadRings::forEachEdgeAt(const LooseVertex& v, Visit&& visit) const {
+  const CellRef c = cellOf(v);
+  forEachEdge(c, [&](const EdgeRef& e, int edge) {
+    if (block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) visit(e);
+  });
 }
 
 }  // namespace pdc::detail

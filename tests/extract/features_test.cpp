@@ -126,13 +126,21 @@ TEST_F(FeaturesTest, CertifiedMeshesDoNotIntersectThemselves) {
   }
 }
 
+TEST_F(FeaturesTest, CertifyingKeepsEdgesOfExactDistances) {
+  for (const char* name : {"hexagon", "wedge75", "slab"})
+    EXPECT_LT(figures(name, "exact", 0, HermiteMode::kAuto, Placement::kCertified).edgeRms, 0.012) << name;
+}
+
 TEST_F(FeaturesTest, ThreadsDoNotMatter) {
   const eval::Pose pose = eval::randomPose(kPose, kSize);
   const eval::GridInput input = eval::makeGrid("exact", shape("star"), pose, 0.02, 1);
-  const Mesh one = meshOf(input, HermiteMode::kAuto, Placement::kFree, 1),
-             three = meshOf(input, HermiteMode::kAuto, Placement::kFree, 3);
-  EXPECT_EQ(one.positions, three.positions);
-  EXPECT_EQ(one.quads, three.quads);
+  for (const Placement placement : {Placement::kFree, Placement::kCertified}) {
+    const Mesh one = meshOf(input, HermiteMode::kAuto, placement, 1),
+               three = meshOf(input, HermiteMode::kAuto, placement, 3);
+    EXPECT_EQ(one.positions, three.positions);
+    EXPECT_EQ(one.quads, three.quads);
+    EXPECT_EQ(one.triangles, three.triangles);
+  }
 }
 
 /// The same solid on a lattice with a voxel of a tenth and turned axes.

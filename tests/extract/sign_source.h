@@ -51,6 +51,9 @@ class SignSource final : public HermiteSource {
     });
   }
 
+  [[nodiscard]] bool exactNormals() const override { return mExactNormals; }
+  /// Makes vertices count as being on creases where their random planes happen to meet.
+  void claimExactNormals() { mExactNormals = true; }
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
 
  private:
@@ -81,7 +84,7 @@ class SignSource final : public HermiteSource {
   }
 
   int mSize;
-  bool mOpen;
+  bool mOpen, mExactNormals = false;
   std::vector<bool> mInside;
   LatticeMap mMap{Mat3d::identity(), Vec3d{}};
 };

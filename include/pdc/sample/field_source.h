@@ -29,6 +29,7 @@ class FieldSource final : public HermiteSource {
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
   void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                    HermiteBlock& hermite) const override;
+  [[nodiscard]] bool exactNormals() const override { return true; }
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
   /// What is contoured: zero on the surface, negative inside, cut off at the box unless open.
   [[nodiscard]] const FieldPtr& levelField() const { return mField; }

@@ -33,6 +33,10 @@ class HermiteSource {
   virtual void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                            HermiteBlock& hermite) const = 0;
 
+  /// True if normals are the surface's own at each crossing, not means over the cells about it: where the planes of a
+  /// cell's crossings meet, there is a crease or a corner.
+  [[nodiscard]] virtual bool exactNormals() const { return false; }
+
   /// A hint that fillHermite() will soon be called for `block`, so that its data may be fetched meanwhile.
   virtual void expect(const Coord& block) const { static_cast<void>(block); }
   /// Fills what the source knows of a block's patches beyond `hermite`, which it has filled before. Sources that know

@@ -23,6 +23,7 @@ class SampledSource final : public HermiteSource {
   void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                          const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
                          FeaturePlanes& planes) const override;
+  [[nodiscard]] bool exactNormals() const override { return mSource.exactNormals(); }
   [[nodiscard]] bool knowsNoise() const override { return mSource.knowsNoise(); }
   [[nodiscard]] bool knowsSigma() const override { return mSource.knowsSigma(); }
   void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
