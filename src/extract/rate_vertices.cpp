@@ -21,9 +21,9 @@ namespace {
 /// flat parts at some 0.02.
 constexpr double kRankShare = 0.05;
 
-/// Error of a plane from distances over its σn: at noises of 0.02 and 0.1 voxel vertices on flat parts are off by half
+/// Error of a plane from distances over its σn: at noises of 0.02 and 0.1 voxel vertices on flat parts are off by 0.4
 /// of that.
-constexpr double kPlaneError = 0.5;
+constexpr double kPlaneError = 0.4;
 
 constexpr double square(double x) { return x * x; }
 
@@ -32,6 +32,8 @@ struct Rating {
   Vec3f normal{};      ///< The direction that they determine best, outwards; zero where there are none.
   float variance = 0;  ///< Of the solution where they determine it, in voxels squared.
   std::uint8_t rank = 1;
+  /// Several planes from distances meet there: how far it is from its neighbours' mean says how the crease lies.
+  bool onCrease = false;
 };
 
 /// The planes of one vertex: unit normals in world space times the roots of their weights, and its distances from them
@@ -106,7 +108,9 @@ class BlockRater {
       const auto add = [&](const Vec3d& n, const Vec3d& point) {
         planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
       };
+      bool onCrease = false;
       if (const FeaturePlanes::Patch* feature = mFeatures.find(i)) {
+        onCrease = feature->count > 1;
         planes.known = square(kPlaneError * static_cast<double>(feature->sigmaNormal));
         for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
@@ -115,6 +119,7 @@ class BlockRater {
         addCrossings(mPatches.patch(i), edges, add);
       }
       ratings[vertex] = rate(planes);
+      ratings[vertex].onCrease = onCrease;
     }
   }
 
@@ -215,7 +220,8 @@ void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, cons
   const double unit = source.map().voxelSize();
   mesh.confidence.resize(ratings.size());
   for (std::size_t i = 0; i < ratings.size(); ++i) {
-    const double deviation = std::hypot(height[i] / unit, std::sqrt(double{ratings[i].variance}));
+    const double seen = ratings[i].onCrease ? 0 : height[i] / unit;
+    const double deviation = std::hypot(seen, std::sqrt(double{ratings[i].variance}));
     mesh.confidence[i] = static_cast<float>(1 / (1 + deviation / kHalfConfidence));
   }
 }

@@ -21,6 +21,15 @@ inline void forEachLane(const F& f) {
   for (int lane = 0; lane < kLanes; ++lane) f(lane);
 }
 
+/// The sum of kLanes values, pairwise, so that the order is the same on every processor.
+inline float sumLanes(const float* lanes) {
+  static_assert(kLanes == 16);
+  float eight[8], four[4];
+  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
+  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
 template <typename F>
 [[gnu::flatten]] void loopBaseline(std::size_t count, const F& f) {
   for (std::size_t i = 0; i < count; ++i) f(i);

@@ -38,8 +38,8 @@ float sideSigma(double noise) { return static_cast<float>(std::max(0.01, 0.7 * n
 /// Sides that weigh less than this share of the heaviest are samples that noise has turned aside.
 double leastShare(double noise) { return std::min(0.1, 10 * noise * noise); }
 
-/// What is expected of a sample's normal: one-sided slopes of second order double and more the noise of values.
-double normalNoise(double noise) { return 4 * noise; }
+/// What is expected of a sample's normal.
+double normalNoise(double noise) { return kNormalNoise * noise; }
 
 Coord cellOf(const SurfacePatch& patch) { return {patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7}; }
 

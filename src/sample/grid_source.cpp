@@ -59,6 +59,10 @@ constexpr double kSlopeError = 0.15;
 /// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
 constexpr double kMostNoise = 0.3;
 
+/// Planes of a block come from samples beyond it too, whose noise is larger where it grows. Without this, where it
+/// grows by 0.004 voxel per voxel, edges were 1 to 2 % less exact.
+constexpr double kBeyond = 1.15;
+
 /// \returns nothing where crossings are all there is to take planes from.
 std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeDistance,
                                                    const detail::GridSampler& sampler, const LatticeMap& map) {
@@ -129,7 +133,7 @@ void GridSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, 
   };
   detail::DistanceModel model = *mImpl->distances;
   if (mImpl->noise.hasSigma()) {
-    model.noise = mImpl->noise.meanSigma(block, edges, hermite) / mImpl->map.voxelSize();
+    model.noise = kBeyond * mImpl->noise.largestSigma(block, edges, hermite) / mImpl->map.voxelSize();
     if (model.noise > kMostNoise) return;
   }
   detail::findFeaturePlanes({signs, edges, hermite, patches}, model, read, planes);

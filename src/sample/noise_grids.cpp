@@ -109,12 +109,13 @@ void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
   });
 }
 
-double NoiseGrids::meanSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const {
+double NoiseGrids::largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const {
   DistanceWindow window;
   mSigma->readWindow(block, 1, window);
-  double sum = 0;
-  forEachLow(edges, [&](int i, int axis, int low) { sum += double{valueAt(window, low, axis, hermite.t[i])}; });
-  return edges.size() > 0 ? sum / edges.size() : 0;
+  float largest = 0;
+  forEachLow(edges,
+             [&](int i, int axis, int low) { largest = std::max(largest, valueAt(window, low, axis, hermite.t[i])); });
+  return double{largest};
 }
 
 }  // namespace pdc::detail

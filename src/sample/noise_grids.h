@@ -22,8 +22,8 @@ class NoiseGrids {
   /// See HermiteSource::fillNoise. \param values of the grid itself.
   void fill(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite, const GridSampler& values,
             PlaneNoise& noise) const;
-  /// Mean σ at the block's crossings, in the units of the values. \pre hasSigma()
-  [[nodiscard]] double meanSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const;
+  /// Largest σ at the block's crossings, in the units of the values. \pre hasSigma()
+  [[nodiscard]] double largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const;
 
  private:
   std::unique_ptr<const GridSampler> open(const openvdb::GridBase::ConstPtr& grid,

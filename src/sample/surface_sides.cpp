@@ -5,6 +5,7 @@
 
 #include "math/lane_loops.h"
 #include "pdc/math/solvers.h"
+#include "sample/noisy_side.h"
 
 namespace pdc::detail {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr float kSameSide = 0.9F;
 /// Samples lighter than this found no side of their own.
 constexpr float kLeastSeed = 0.02F;
+/// Normals noisier than this do not say best how a side lies.
+constexpr double kNoisy = 0.01;
 /// Curvatures that are common, per voxel: noise in the normals that would look larger is smoothed away.
 constexpr double kUsualBend = 0.1;
 
@@ -26,14 +29,6 @@ struct Moments {
 
   [[nodiscard]] Vec3d vector(int first) const { return {sum[first], sum[first + 1], sum[first + 2]}; }
 };
-
-/// The sum of all lanes, pairwise, so that the order is the same on every processor.
-float sumLanes(const std::array<float, kLanes>& lanes) {
-  float eight[8], four[4];
-  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
-  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
-  return (four[0] + four[2]) + (four[1] + four[3]);
-}
 
 /// The most trusted sample that may found a side; -1 if there is none.
 int findSeed(const SurfaceSamples& samples) {
@@ -76,25 +71,27 @@ Vec3f meanNormal(SurfaceSamples& samples, const Vec3f& mean) {
       sum[2][lane] += n.z * t;
     });
   }
-  const Vec3f s{sumLanes(sum[0]), sumLanes(sum[1]), sumLanes(sum[2])};
+  const Vec3f s{sumLanes(sum[0].data()), sumLanes(sum[1].data()), sumLanes(sum[2].data())};
   const float l = length(s);
   return l > 0 ? s * (1 / l) : mean;
 }
 
-/// Sums over the samples whose normals are like `mean`, and takes their weight away.
-void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments) {
+/// Sums over the samples whose normals are like `mean`, and takes their weight away. \param share gets their trust.
+void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments, float* share) {
   auto& sum = moments.lanes;
   for (int block = 0; block < samples.blocks(); ++block) {
     const LanePointers p(samples, block);
     float *weight = p.column[SurfaceSamples::kWeight], *trust = p.column[SurfaceSamples::kTrust];
     const float *fx = p.column[SurfaceSamples::kFootX], *fy = p.column[SurfaceSamples::kFootY],
                 *fz = p.column[SurfaceSamples::kFootZ];
+    float* own = share + block * kLanes;
     forEachLane([&](int lane) {
       const Vec3f n = p.normal(lane);
       const bool like = dot(n, mean) > kSameSide;
       const float w = like ? weight[lane] : 0.0F, t = like ? trust[lane] : 0.0F;
       weight[lane] = like ? 0.0F : weight[lane];
       trust[lane] = like ? 0.0F : trust[lane];
+      own[lane] = t;
       const Vec3f f{fx[lane], fy[lane], fz[lane]}, tn = n * t, tf = f * t;
       sum[Moments::kWeight][lane] += w;
       sum[Moments::kTrust][lane] += t;
@@ -112,7 +109,7 @@ void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments) {
       add(Moments::kNormalFoot + 6, tn.z * f.x, tn.z * f.y, tn.z * f.z);
     });
   }
-  for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k])};
+  for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k].data())};
 }
 
 SurfaceSide fitSide(const Moments& moments, double normalNoise) {
@@ -160,6 +157,7 @@ void SurfaceSides::dropLight(double share) {
 
 SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
   SurfaceSides sides;
+  alignas(64) std::array<float, SurfaceSamples::kCapacity> share;
   forEachBlock(level, 1, [&](std::size_t) {
     while (sides.count < SurfaceSides::kMax) {
       const int seed = findSeed(samples);
@@ -168,8 +166,10 @@ SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel le
       Vec3f mean = meanNormal(samples, meanNormal(samples, founder));
       if (!(dot(founder, mean) > kSameSide)) mean = founder;
       Moments moments;
-      takeLike(samples, mean, moments);
-      sides.side[sides.count++] = fitSide(moments, normalNoise);
+      takeLike(samples, mean, moments, share.data());
+      SurfaceSide& side = sides.side[sides.count++];
+      side = fitSide(moments, normalNoise);
+      if (normalNoise > kNoisy) side = fitNoisySide(samples, share.data(), side, normalNoise, level);
     }
   });
   return sides;

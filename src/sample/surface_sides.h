@@ -36,6 +36,9 @@ struct SurfaceSides {
   void dropLight(double share);
 };
 
+/// One-sided slopes of second order have this many times the noise of values.
+inline constexpr double kNormalNoise = 4;
+
 /// Sorts samples into sides by their normals: the heaviest first, then what is left of them. Spoils the samples'
 /// weights. The sides are in the space of the samples' feet. \param normalNoise expected of each component of a normal.
 /// \param level changes no bit of them.

@@ -82,7 +82,7 @@ TEST_F(FeaturesTest, RasterisedMeshesKeepEdges) {
 
 TEST_F(FeaturesTest, NoiseBlursEdgesByAboutAsMuch) {
   const eval::Figures f = figures("hexagon", "exact", 0.02, HermiteMode::kAuto);
-  EXPECT_LT(f.edgeRms, 0.035);
+  EXPECT_LT(f.edgeRms, 0.025);
   EXPECT_LT(f.vertexRms, figures("hexagon", "exact", 0.02, HermiteMode::kGradient).vertexRms);
 }
 
