@@ -86,21 +86,21 @@ class Certifier {
     return mDrawn[i] < kDrawnIn ? i : -1;
   }
 
-  /// Answers the offences, each by the gentlest means left: moving a vertex along its crease, the quad's other
-  /// diagonal, drawing vertices back, fans, split cells. \returns the faces that changed or wait for others to, sorted;
+  /// Answers the offences, each by the gentlest means left: the quad's other diagonal, moving a vertex along its
+  /// crease, drawing vertices back, fans, split cells. \returns the faces that changed or wait for others to, sorted;
   /// appends those for which nothing is left to `stuck`.
   [[nodiscard]] std::vector<EdgeRef> answer(const NearFaces& near, std::vector<Offence> offences,
                                             std::vector<EdgeRef>& stuck) {
-    std::vector<EdgeRef> changed = moveAlongCreases(near, offences);
-    const std::vector<EdgeRef> turnedEdges = turn(near, offences);
-    changed.insert(changed.end(), turnedEdges.begin(), turnedEdges.end());
-    const auto isTurned = [&](const EdgeRef& e) {
-      return std::binary_search(turnedEdges.begin(), turnedEdges.end(), e);
-    };
+    std::vector<EdgeRef> changed = turn(near, offences);
+    std::erase_if(offences, [&changed](const Offence& o) {
+      return std::binary_search(changed.begin(), changed.end(), o.edge0) ||
+             std::binary_search(changed.begin(), changed.end(), o.edge1);
+    });
+    const std::vector<EdgeRef> nearMoves = moveAlongCreases(near, offences);
+    changed.insert(changed.end(), nearMoves.begin(), nearMoves.end());
     std::vector<std::size_t> draw;
     std::vector<const Offence*> settled;
     for (const Offence& o : offences) {
-      if (isTurned(o.edge0) || isTurned(o.edge1)) continue;
       const std::size_t before = draw.size();
       forEachCorner(o, [&](std::uint32_t v) {
         if (const std::ptrdiff_t i = movable(v); i >= 0) draw.push_back(static_cast<std::size_t>(i));

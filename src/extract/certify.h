@@ -13,8 +13,8 @@ struct CertifyCounts {
 /// it should not or faces backwards along its lattice edge; see docs/soundness.md.
 ///
 /// Only faces that hold a loose vertex, or are doubtful, are tested, against all others near them, in the mesh's own
-/// single precision by exact predicates. Vertices on creases are moved to where their faces offend less (see
-/// CreaseMoves), quads turned. Then every loose vertex of an offending pair of triangles is drawn back towards its safe
+/// single precision by exact predicates. Quads are turned, vertices on creases moved to where their faces offend
+/// less (see CreaseMoves). Then every loose vertex of an offending pair of triangles is drawn back towards its safe
 /// place, step by step. Where all vertices are safe, quads become fans, and cells with several patches or ambiguous
 /// faces are split (see Fans), which cannot intersect. Each round is decided from the state before it, so the result
 /// does not depend on threads.

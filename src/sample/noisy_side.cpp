@@ -22,20 +22,23 @@ constexpr int kUnknowns = 6;
 using Vector = std::array<double, kUnknowns>;
 using Matrix = std::array<Vector, kUnknowns>;
 
-/// Solves A x = b, for a positive definite A of which the lower triangle counts, by Cholesky's decomposition.
+/// Solves A x = b, for a positive definite A of which the lower triangle counts, by A = LDLᵀ.
 Vector solve(Matrix A, Vector b) {
-  for (int j = 0; j < kUnknowns; ++j)
-    for (int i = j; i < kUnknowns; ++i) {
-      for (int k = 0; k < j; ++k) A[i][j] -= A[i][k] * A[j][k];
-      A[i][j] = i == j ? std::sqrt(A[i][j]) : A[i][j] / A[j][j];
+  Vector inverse;  // Of D. A[j][i] above the diagonal holds D L.
+  for (int j = 0; j < kUnknowns; ++j) {
+    for (int i = j; i < kUnknowns; ++i)
+      for (int k = 0; k < j; ++k) A[i][j] -= A[i][k] * A[k][j];
+    inverse[j] = 1 / A[j][j];
+    for (int i = j + 1; i < kUnknowns; ++i) {
+      A[j][i] = A[i][j];
+      A[i][j] *= inverse[j];
     }
-  for (int i = 0; i < kUnknowns; ++i) {
-    for (int k = 0; k < i; ++k) b[i] -= A[i][k] * b[k];
-    b[i] /= A[i][i];
   }
+  for (int i = 0; i < kUnknowns; ++i)
+    for (int k = 0; k < i; ++k) b[i] -= A[i][k] * b[k];
   for (int i = kUnknowns - 1; i >= 0; --i) {
+    b[i] *= inverse[i];
     for (int k = i + 1; k < kUnknowns; ++k) b[i] -= A[k][i] * b[k];
-    b[i] /= A[i][i];
   }
   return b;
 }

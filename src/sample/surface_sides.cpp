@@ -112,22 +112,29 @@ void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments, floa
   for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k].data())};
 }
 
-SurfaceSide fitSide(const Moments& moments, double normalNoise) {
+/// The plane through the mean foot with the mean normal.
+SurfaceSide meanSide(const Moments& moments) {
+  const double trust = moments.sum[Moments::kTrust];
+  SurfaceSide side{};
+  side.weight = moments.sum[Moments::kWeight];
+  side.center = moments.vector(Moments::kFoot) * (1 / trust);
+  const Vec3d sum = moments.vector(Moments::kNormal);
+  side.normal = sum * (1 / length(sum));
+  return side;
+}
+
+/// Bends a plane as the change of the normals says.
+void bendSide(const Moments& moments, double normalNoise, SurfaceSide& side) {
   const auto& sum = moments.sum;
   const double trust = sum[Moments::kTrust];
-  SurfaceSide side{};
-  side.weight = sum[Moments::kWeight];
-  side.center = moments.vector(Moments::kFoot) * (1 / trust);
-  const Vec3d mean = moments.vector(Moments::kNormal) * (1 / trust);
-  side.normal = mean * (1 / length(mean));
-
   // Least squares for n(p) − mean = H(p − center), with a ridge.
   const double* ff = &sum[Moments::kFootFoot];
   const SymMat3<double> spread = SymMat3<double>{ff[0], ff[1], ff[2], ff[3], ff[4], ff[5]} - outer(side.center) * trust;
   const double noise = normalNoise / kUsualBend;
   const SymMat3<double> damped = spread.plusDiagonal((0.01 + noise * noise) * trust);
+  const Vec3d normals = moments.vector(Moments::kNormal);
   for (int k = 0; k < 3; ++k) {
-    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - side.center * (trust * mean[k]);
+    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - side.center * normals[k];
     const auto row = solveLdlt(damped, turn);
     side.bend.row[k] = row ? *row : Vec3d{};
   }
@@ -143,7 +150,6 @@ SurfaceSide fitSide(const Moments& moments, double normalNoise) {
   const double bent = H.row[0].x * spread.xx + H.row[1].y * spread.yy + H.row[2].z * spread.zz +
                       2 * (H.row[0].y * spread.xy + H.row[0].z * spread.xz + H.row[1].z * spread.yz);
   side.offset = 0.5 * bent / trust;
-  return side;
 }
 
 }  // namespace
@@ -168,8 +174,12 @@ SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel le
       Moments moments;
       takeLike(samples, mean, moments, share.data());
       SurfaceSide& side = sides.side[sides.count++];
-      side = fitSide(moments, normalNoise);
-      if (normalNoise > kNoisy) side = fitNoisySide(samples, share.data(), side, normalNoise, level);
+      side = meanSide(moments);
+      if (normalNoise > kNoisy) {
+        side = fitNoisySide(samples, share.data(), side, normalNoise, level);
+      } else {
+        bendSide(moments, normalNoise, side);
+      }
     }
   });
   return sides;

@@ -179,6 +179,23 @@ void VoxelPlanes::find(int row) {
   }
   mNeeded[row] = 0;
   for (int v = 0; v < kVoxels; ++v) keepHeaviest(mStart[row][v], mStart[row][v + 1]);
+  dropWeightless(row);
+}
+
+void VoxelPlanes::dropWeightless(int row) {
+  auto& start = mStart[row];
+  int kept = start[0];
+  for (int v = 0; v < kVoxels; ++v) {
+    const int begin = start[v], end = start[v + 1];
+    start[v] = static_cast<std::uint16_t>(kept);
+    for (int i = begin; i < end; ++i) {
+      if (!(mColumn[SurfaceSamples::kWeight][i] > 0)) continue;
+      for (auto& column : mColumn) column[kept] = column[i];
+      ++kept;
+    }
+  }
+  start[kVoxels] = static_cast<std::uint16_t>(kept);
+  mCount = kept;
 }
 
 void VoxelPlanes::keepHeaviest(int begin, int end) {

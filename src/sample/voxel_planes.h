@@ -67,6 +67,8 @@ class VoxelPlanes {
   void find(int row);
   /// Of a voxel's samples only three count: with noise more octants agree with themselves by chance.
   void keepHeaviest(int begin, int end);
+  /// Of the row found last.
+  void dropWeightless(int row);
 
   const DistanceWindow& mWindow;
   PlaneTolerance mTolerance;
