@@ -8,6 +8,7 @@
 #include <string>
 
 #include "check_command.h"
+#include "huge_heap.h"
 #include "info_command.h"
 #include "interrupt.h"
 #include "mesh_command.h"
@@ -68,6 +69,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  pdc::useHugePagesForHeap();
   pdc::installInterruptHandler();
   try {
     const int exitCode = run(argc, argv);
