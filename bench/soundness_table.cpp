@@ -27,6 +27,8 @@
 
 namespace {
 
+constexpr double kSigmas[] = {0.0, 0.01, 0.1, 1.0, std::numeric_limits<double>::infinity()};
+
 std::size_t triangleCount(const pdc::Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
 
 /// Offending pairs per thousand triangles; one digit more than it takes to tell none from few.
@@ -62,7 +64,7 @@ pdc::Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso) {
 }
 
 void printRow(const std::string& name, const pdc::HermiteSource& source, const std::string& peer) {
-  for (const double sigma : {0.0, 0.01, 0.1, 1.0, std::numeric_limits<double>::infinity()}) {
+  for (const double sigma : kSigmas) {
     pdc::ContourReport report;
     const pdc::Mesh certified = pdc::contour(source, {.sigmaNormal = sigma}, &report);
     const pdc::Mesh free = pdc::contour(source, {.sigmaNormal = sigma, .placement = pdc::Placement::kFree});
@@ -108,12 +110,12 @@ openvdb::FloatGrid::Ptr levelSet(const pdc::Field& field, int resolution) {
   return grid;
 }
 
-/// Worst of all poses, noises and σn.
+/// Sums over the grids and all σn.
 void printShape(const std::string& name, int resolution, const std::vector<openvdb::FloatGrid::Ptr>& grids) {
   std::size_t meshes = 0, triangles = 0, broken = 0, pairs = 0, freePairs = 0, freeTriangles = 0, uncertified = 0;
   for (const auto& grid : grids) {
     const pdc::GridSource source(grid);
-    for (const double sigma : {0.0, 0.01, 0.1, 1.0, std::numeric_limits<double>::infinity()}) {
+    for (const double sigma : kSigmas) {
       pdc::ContourReport report;
       const pdc::Mesh certified = pdc::contour(source, {.sigmaNormal = sigma}, &report);
       const pdc::Mesh free = pdc::contour(source, {.sigmaNormal = sigma, .placement = pdc::Placement::kFree});
@@ -134,9 +136,8 @@ void printShape(const std::string& name, int resolution, const std::vector<openv
 
 void printShapes() {
   fmt::print(
-      "| solid | voxels | meshes | triangles | open, non-manifold, misoriented | hits and degenerate | uncertified | "
-      "hits, "
-      "free |\n|---|---|---|---|---|---|---|---|\n");
+      "| solid | voxels | meshes | triangles | open, non-manifold, misoriented | hits and degenerate "
+      "| uncertified | hits, free |\n|---|---|---|---|---|---|---|---|\n");
   for (const int resolution : {32, 64, 128, 256}) {
     const double size = 0.25 * resolution;
     for (const pdc::eval::Shape& shape : pdc::eval::makeShapes(size)) {
@@ -159,7 +160,10 @@ void printShapes() {
 
 int main(int argc, char** argv) {
   openvdb::initialize();
-  if (argc == 2 && argv[1] == std::string("--shapes")) return printShapes(), 0;
+  if (argc == 2 && argv[1] == std::string("--shapes")) {
+    printShapes();
+    return 0;
+  }
   fmt::print(
       "| input | σn | vertices | open, non-manifold, misoriented | hits | uncertified | shortened | drawn in | fans "
       "| hits, free | hits, VolumeToMesh |\n|---|---|---|---|---|---|---|---|---|---|---|\n");

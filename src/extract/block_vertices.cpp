@@ -256,7 +256,7 @@ struct BlockVertexSolver::Scratch {
       return free;
     } else {
       safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
-      const double fit = exactNormals ? 1 : kFit;
+      const double fit = exactNormals ? 1 : kFit;  // Without noise nearer is better.
       if (planeError(safe) <= fit * fit * planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);

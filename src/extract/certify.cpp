@@ -116,12 +116,6 @@ class Certifier {
     return changed;
   }
 
-  template <typename Visit>
-  static void forEachCorner(const Offence& o, Visit&& visit) {
-    for (const Triangle& t : {o.triangle0, o.triangle1})
-      for (const std::uint32_t v : t) visit(v);
-  }
-
   /// Moves vertices on creases to where their faces offend less, each a few times at most. Takes the offences beside
   /// them out of the list: they wait for the next round. \returns the faces that changed and those that wait.
   std::vector<EdgeRef> moveAlongCreases(const NearFaces& near, std::vector<Offence>& offences) {

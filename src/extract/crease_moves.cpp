@@ -84,13 +84,6 @@ bool isSharp(const LooseVertex& v) {
   return false;
 }
 
-/// Calls visit for each corner of an offence's triangles.
-template <typename Visit>
-void forEachCorner(const Offence& o, Visit&& visit) {
-  for (const Triangle& t : {o.triangle0, o.triangle1})
-    for (const std::uint32_t v : t) visit(v);
-}
-
 }  // namespace
 
 std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vector<Offence>& offences,

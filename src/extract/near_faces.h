@@ -18,6 +18,13 @@ struct Offence {
   friend auto operator<=>(const Offence&, const Offence&) = default;
 };
 
+/// Calls visit for each corner of an offence's triangles.
+template <typename Visit>
+void forEachCorner(const Offence& o, Visit&& visit) {
+  for (const Triangle& t : {o.triangle0, o.triangle1})
+    for (const std::uint32_t v : t) visit(v);
+}
+
 /// Finds what faces meet, among all faces near them.
 class NearFaces {
  public:
@@ -66,9 +73,9 @@ class NearFaces {
   const SimdLevel mLevel = bestSimdLevel();
   const Mat3d mToLattice;
   const Vec3d mOrigin;
-  const EdgeSet mFar;          ///< The far-reaching faces.
-  std::vector<double> mReach;  ///< Of each such block: how far they reach from the low ends of their
-  ///< edges along an axis, in lattice units.
+  const EdgeSet mFar;  ///< The far-reaching faces.
+  /// By block that has some: how far they reach from the low ends of their edges along an axis, in lattice units.
+  std::vector<double> mReach;
   double mLargestReach;
 };
 

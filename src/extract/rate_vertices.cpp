@@ -108,9 +108,8 @@ class BlockRater {
       const auto add = [&](const Vec3d& n, const Vec3d& point) {
         planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
       };
-      bool onCrease = false;
-      if (const FeaturePlanes::Patch* feature = mFeatures.find(i)) {
-        onCrease = feature->count > 1;
+      const FeaturePlanes::Patch* feature = mFeatures.find(i);
+      if (feature != nullptr) {
         planes.known = square(kPlaneError * static_cast<double>(feature->sigmaNormal));
         for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
@@ -119,7 +118,7 @@ class BlockRater {
         addCrossings(mPatches.patch(i), edges, add);
       }
       ratings[vertex] = rate(planes);
-      ratings[vertex].onCrease = onCrease;
+      ratings[vertex].onCrease = feature != nullptr && feature->count > 1;
     }
   }
 

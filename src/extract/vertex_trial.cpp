@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "math/lane_loops.h"
-
 namespace pdc::detail {
 
 VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex,

@@ -1,6 +1,5 @@
 #include "sample/noisy_side.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
