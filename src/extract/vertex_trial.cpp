@@ -1,6 +1,7 @@
 #include "extract/vertex_trial.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pdc::detail {
 
@@ -69,16 +70,20 @@ std::size_t VertexTrial::countOffences(const Vec3f& place, std::size_t most) {
 }
 
 /// Of one's own piece with the fixed ones and the own ones before it.
-std::size_t VertexTrial::countOffences(std::size_t own, std::size_t most) const {
-  const OwnPiece& piece = mOwn[own];
+std::size_t VertexTrial::countOffences(std::size_t own, std::size_t most) {
+  OwnPiece& piece = mOwn[own];
   for (int i = 0; i < piece.count; ++i)
     // What it meets then is of no matter.
     if (!mTests.facesForward(piece.edge, piece.triangle(i), piece.cornersOf(i))) return 1;
   std::size_t count = 0;
   if (piece.count == 2)
     count += trianglesIntersect(piece.cornersOf(0), piece.triangle(0), piece.cornersOf(1), piece.triangle(1));
-  for (std::size_t i = 0; i < piece.near.size() && count < most; ++i)
-    count += countPairs(piece, mFixed[piece.near[i]], most - count);
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < piece.near.size() && count < most; ++i) {
+    const std::size_t pairs = countPairs(piece, mFixed[piece.near[i]], most - count);
+    if (pairs > 0) std::swap(piece.near[i], piece.near[met++]);
+    count += pairs;
+  }
   for (std::size_t i = 0; i < own && count < most; ++i) count += countPairs(piece, mOwn[i], most - count);
   return count;
 }

@@ -39,12 +39,12 @@ class VertexTrial {
   };
   /// One that has the vertex.
   struct OwnPiece : Piece {
-    std::vector<std::uint32_t> near;  ///< Those of mFixed that it may reach.
+    std::vector<std::uint32_t> near;  ///< Those of mFixed that it may reach; those met last first.
     std::size_t offences = 0;         ///< When last counted.
   };
 
   void addPiece(const Piece& piece, std::span<const Vec3f> places);
-  [[nodiscard]] std::size_t countOffences(std::size_t own, std::size_t most) const;
+  [[nodiscard]] std::size_t countOffences(std::size_t own, std::size_t most);
   [[nodiscard]] static std::size_t countPairs(const Piece& own, const Piece& other, std::size_t most);
 
   const NearFaces& mNear;

@@ -12,9 +12,9 @@ namespace pdc::detail {
 
 /// What the estimator needs to know of a grid of distances.
 struct DistanceModel {
-  Mat3d M;                ///< From lattice steps to world space, in voxels.
-  double noise = 0;       ///< Standard deviation of the distances, in voxels.
-  double slopeError = 0;  ///< Median of | |∇φ| − 1 |.
+  Mat3d M;             ///< From lattice steps to world space, in voxels.
+  double noise = 0;    ///< Standard deviation of the distances, in voxels.
+  double texture = 0;  ///< See DistanceProbe.
 };
 
 /// A block as the estimator is given it.

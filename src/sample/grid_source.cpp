@@ -56,6 +56,10 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
 /// noise of 0.1 voxel 0.05 to 0.07.
 constexpr double kSlopeError = 0.15;
 
+/// Where surfaces have more texture than this, in voxels, facets look like creases. Level sets of organic meshes whose
+/// facets are as large as a voxel have 0.006 to 0.01, of solids at most 0.001.
+constexpr double kMostTexture = 0.005;
+
 /// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
 constexpr double kMostNoise = 0.3;
 
@@ -71,8 +75,8 @@ std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeD
   if (mode == HermiteMode::kGradient || !map.affine() || !(asked || mayBeDistance)) return std::nullopt;
   const Mat3d M = map.jacobian({}) * (1 / map.voxelSize());
   const detail::DistanceProbe probe = detail::probeDistances(sampler, inverse(M), map.voxelSize());
-  if (!asked && !(probe.slopeError <= kSlopeError)) return std::nullopt;
-  return detail::DistanceModel{.M = M, .noise = probe.noise, .slopeError = probe.slopeError};
+  if (!asked && !(probe.slopeError <= kSlopeError && probe.texture <= kMostTexture)) return std::nullopt;
+  return detail::DistanceModel{.M = M, .noise = probe.noise, .texture = asked ? 0 : probe.texture};
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ struct GridSourceOptions {
 /// off. There planes come from one-sided slopes of the voxels around instead, as far as they have the length that
 /// gradients of distances have and predict the values beside them (docs/features.md). HermiteMode::kAuto does so for
 /// float and double grids that are level sets, or unclassified about a positive background, with an affine transform,
-/// if the median of | |∇φ| − 1 | over a sample of the band is at most 0.15; \throws Error where kDistance is asked for
+/// if over a sample of the band the median of | |∇φ| − 1 | is at most 0.15 and the surface is not rough at the size of a
+/// voxel, as scanned meshes are whose facets would all look like creases; \throws Error where kDistance is asked for
 /// and the transform is not affine.
 ///
 /// With a σ grid each crossing's plane has its own σn: the σ there, over the length of the gradient, propagated through
