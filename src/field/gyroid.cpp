@@ -4,12 +4,15 @@
 #include "field/arguments.h"
 #include "field/interval_arithmetic.h"
 #include "field/pointwise_field.h"
+#include "field/sine_cosine.h"
 #include "pdc/field/primitives.h"
 
 namespace pdc {
 namespace {
 
 using detail::product;
+using detail::SineCosine;
+using detail::sineCosine;
 using detail::sum;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -37,18 +40,20 @@ struct Gyroid {
 
   [[nodiscard]] double value(const Vec3d& p) const {
     const Vec3d u = p * wave;
-    const double g = std::sin(u.x) * std::cos(u.y) + std::sin(u.y) * std::cos(u.z) + std::sin(u.z) * std::cos(u.x);
-    return (thickness > 0 ? std::abs(g) - thickness : g) * scale();
+    const SineCosine x = sineCosine(u.x), y = sineCosine(u.y), z = sineCosine(u.z);
+    const double g = x.sine * y.cosine + y.sine * z.cosine + z.sine * x.cosine;
+    return ((thickness > 0 ? std::abs(g) : g) - thickness) * scale();
   }
 
   [[nodiscard]] detail::ValueGradient gradient(const Vec3d& p) const {
     const Vec3d u = p * wave;
-    const double sx = std::sin(u.x), sy = std::sin(u.y), sz = std::sin(u.z);
-    const double cx = std::cos(u.x), cy = std::cos(u.y), cz = std::cos(u.z);
-    const double g = sx * cy + sy * cz + sz * cx;
+    const SineCosine x = sineCosine(u.x), y = sineCosine(u.y), z = sineCosine(u.z);
+    const double g = x.sine * y.cosine + y.sine * z.cosine + z.sine * x.cosine;
     const double slope = (thickness > 0 && g < 0 ? -1 : 1) * wave * scale();
-    return {(thickness > 0 ? std::abs(g) - thickness : g) * scale(),
-            Vec3d{cx * cy - sz * sx, cy * cz - sx * sy, cz * cx - sy * sz} * slope};
+    return {((thickness > 0 ? std::abs(g) : g) - thickness) * scale(),
+            Vec3d{x.cosine * y.cosine - z.sine * x.sine, y.cosine * z.cosine - x.sine * y.sine,
+                  z.cosine * x.cosine - y.sine * z.sine} *
+                slope};
   }
 
   [[nodiscard]] Interval bound(const Box& box) const {

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "field/arguments.h"
 #include "field/interval_arithmetic.h"
-#include "field/pointwise_field.h"
 #include "field/simplex_kernel.h"
+#include "math/lane_loops.h"
 #include "pdc/field/noise.h"
 
 namespace pdc {
@@ -17,33 +20,40 @@ using detail::ValueGradient;
 
 constexpr int kMaxOctaves = 16;
 
-struct SimplexNoise {
-  struct Octave {
-    double frequency, amplitude;
-    std::uint32_t seed;
-  };
-  Octave octave[kMaxOctaves];
-  int octaves;
+struct Octave {
+  double frequency, amplitude;
+  std::uint32_t seed;
+};
 
-  [[nodiscard]] double value(const Vec3d& p) const { return gradient(p).value; }
+/// Octave by octave, a point per lane.
+class SimplexNoise final : public Field {
+ public:
+  explicit SimplexNoise(std::vector<Octave> octaves) : mOctaves(std::move(octaves)) {}
 
-  [[nodiscard]] ValueGradient gradient(const Vec3d& p) const {
-    ValueGradient sum{0, {}};
-    for (int i = 0; i < octaves; ++i) {
-      const auto& [frequency, amplitude, seed] = octave[i];
-      const ValueGradient f = detail::simplexOctave(p * frequency, seed);
-      sum.value += amplitude * f.value;
-      sum.gradient += f.gradient * (amplitude * frequency);
-    }
-    return sum;
+  void values(PointSpan points, double* values) const override {
+    forEachLanes(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+      Lanes f;
+      addOctaves(p, f);
+      std::copy_n(f.value.data(), size, values + first);
+    });
+  }
+
+  void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
+    forEachLanes(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+      Lanes f;
+      addOctaves<true>(p, f);
+      std::copy_n(f.value.data(), size, values + first);
+      std::copy_n(f.x.data(), size, gradients.x + first);
+      std::copy_n(f.y.data(), size, gradients.y + first);
+      std::copy_n(f.z.data(), size, gradients.z + first);
+    });
   }
 
   /// Per octave what follows from its range, from its slope, and from its slope at the centre and its curvature.
-  [[nodiscard]] Interval bound(const Box& box) const {
+  [[nodiscard]] Interval bound(const Box& box) const override {
     Interval range{0, 0};
     double magnitude = 0;
-    for (int i = 0; i < octaves; ++i) {
-      const auto& [frequency, amplitude, seed] = octave[i];
+    for (const auto& [frequency, amplitude, seed] : mOctaves) {
       const Vec3d center = box.center() * frequency;
       const double radius = box.radius() * frequency;
       const ValueGradient f = detail::simplexOctave(center, seed);
@@ -57,11 +67,52 @@ struct SimplexNoise {
     return detail::widened(range, magnitude);
   }
 
-  [[nodiscard]] double lipschitz() const {
+  [[nodiscard]] double lipschitz() const override {
     double slope = 0;
-    for (int i = 0; i < octaves; ++i) slope += octave[i].amplitude * octave[i].frequency * detail::kSimplexSlope;
+    for (const Octave& o : mOctaves) slope += o.amplitude * o.frequency * detail::kSimplexSlope;
     return slope;
   }
+
+ private:
+  /// Points, or a value and a gradient of each.
+  struct Lanes {
+    alignas(64) std::array<double, kLanes> x{}, y{}, z{}, value{};
+  };
+
+  /// Calls visit(first, size, points) for runs of up to kLanes points.
+  template <typename Visit>
+  static void forEachLanes(PointSpan points, const Visit& visit) {
+    for (std::size_t first = 0; first < points.size; first += kLanes) {
+      const std::size_t size = std::min(points.size - first, std::size_t{kLanes});
+      Lanes p;
+      std::copy_n(points.x + first, size, p.x.data());
+      std::copy_n(points.y + first, size, p.y.data());
+      std::copy_n(points.z + first, size, p.z.data());
+      visit(first, size, p);
+    }
+  }
+
+  /// Adds values, and gradients if they are wanted, to f, which is zero.
+  template <bool kGradients = false>
+  void addOctaves(const Lanes& p, Lanes& f) const {
+    detail::forEachBlock(mLevel, mOctaves.size(), [&](std::size_t i) {
+      const double frequency = mOctaves[i].frequency, amplitude = mOctaves[i].amplitude;
+      const std::uint32_t seed = mOctaves[i].seed;
+      detail::forEachLane([&](int lane) {
+        const Vec3d x{p.x[lane] * frequency, p.y[lane] * frequency, p.z[lane] * frequency};
+        const ValueGradient octave = detail::simplexOctave(x, seed);
+        f.value[lane] += amplitude * octave.value;
+        if constexpr (kGradients) {
+          f.x[lane] += octave.gradient.x * (amplitude * frequency);
+          f.y[lane] += octave.gradient.y * (amplitude * frequency);
+          f.z[lane] += octave.gradient.z * (amplitude * frequency);
+        }
+      });
+    });
+  }
+
+  std::vector<Octave> mOctaves;
+  SimdLevel mLevel = bestSimdLevel();
 };
 
 }  // namespace
@@ -73,17 +124,16 @@ FieldPtr simplexNoise(const NoiseOptions& options) {
   detail::requirePositive("noise gain", options.gain);
   detail::requirePositive("noise lacunarity", options.lacunarity);
   detail::requireNotNegative("noise amplitude", options.amplitude);
-  SimplexNoise noise{};
-  noise.octaves = options.octaves;
+  std::vector<Octave> octaves;
   double frequency = options.frequency, amplitude = options.amplitude;
   for (int i = 0; i < options.octaves; ++i) {
     detail::requirePositive("noise frequency of the last octave", frequency);
     detail::requireNotNegative("noise amplitude of the last octave", amplitude);
-    noise.octave[i] = {frequency, amplitude, detail::octaveSeed(options.seed, i)};
+    octaves.push_back({frequency, amplitude, detail::octaveSeed(options.seed, i)});
     frequency *= options.lacunarity;
     amplitude *= options.gain;
   }
-  return detail::makePointwise(noise);
+  return std::make_shared<SimplexNoise>(std::move(octaves));
 }
 
 }  // namespace pdc

@@ -1,0 +1,122 @@
+// Contouring scenes: time and samples per vertex, and how both grow with the resolution, beside the time that sampling
+// the whole box takes. Prints a table.
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "pdc/extract/contour.h"
+#include "pdc/io/scene_reader.h"
+#include "pdc/sample/field_source.h"
+
+namespace {
+
+constexpr int kRuns = 5;
+/// Larger boxes are not sampled whole.
+constexpr int kMostSampled = 512;
+
+/// Counts the points that a field is asked for; those of gradients once.
+class CountingField final : public pdc::Field {
+ public:
+  explicit CountingField(pdc::FieldPtr field) : mField(std::move(field)) {}
+
+  void values(pdc::PointSpan points, double* values) const override {
+    mPoints += points.size;
+    mField->values(points, values);
+  }
+  void gradients(pdc::PointSpan points, double* values, pdc::GradientSpan gradients) const override {
+    mPoints += points.size;
+    mField->gradients(points, values, gradients);
+  }
+  [[nodiscard]] pdc::Interval bound(const pdc::Box& box) const override { return mField->bound(box); }
+  [[nodiscard]] double lipschitz() const override { return mField->lipschitz(); }
+  [[nodiscard]] std::size_t points() const { return mPoints; }
+
+ private:
+  pdc::FieldPtr mField;
+  mutable std::atomic<std::size_t> mPoints{0};
+};
+
+/// Median of several runs after one that does not count, in milliseconds.
+double milliseconds(const std::function<void()>& run) {
+  std::vector<double> times;
+  for (int i = 0; i <= kRuns; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(times.begin() + 1, times.end());
+  return times[1 + kRuns / 2];
+}
+
+/// Samples the lattice of n³ cells over a box, and keeps nothing.
+void sampleBox(const pdc::Field& field, const pdc::Box& box, int n, double h) {
+  tbb::parallel_for(0, (n + 1) * (n + 1), [&](int row) {
+    using Row = std::array<double, pdc::Field::kMaxBatch>;
+    Row x, y, z, values;
+    x.fill(box.lo.x + h * (row / (n + 1)));
+    y.fill(box.lo.y + h * (row % (n + 1)));
+    for (int k = 0; k <= n; k += static_cast<int>(z.size())) {
+      const auto size = std::min(z.size(), static_cast<std::size_t>(n + 1 - k));
+      for (std::size_t i = 0; i < size; ++i) z[i] = box.lo.z + h * (k + static_cast<double>(i));
+      field.values({x.data(), y.data(), z.data(), size}, values.data());
+    }
+  });
+}
+
+void printRow(const std::filesystem::path& path, int resolution, int threads, double& previous) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const pdc::Scene scene = pdc::readScene(path);
+  const pdc::Vec3d size = scene.box.hi - scene.box.lo;
+  const double h = std::max({size.x, size.y, size.z}) / resolution;
+  const auto contour = [&](const pdc::FieldPtr& field) {
+    return pdc::contour(pdc::FieldSource(field, {.box = scene.box, .voxelSize = h, .iso = scene.iso}),
+                        {.sigmaNormal = scene.sigmaNormal.value_or(0.05)})
+        .positions.size();
+  };
+  const auto counting = std::make_shared<CountingField>(scene.field);
+  const auto vertices = static_cast<double>(contour(counting));
+  const double time = milliseconds([&] { contour(scene.field); });
+  const auto growth = previous > 0 ? fmt::format("{:.2f}", std::log2(time / previous)) : std::string();
+  const auto box = resolution <= kMostSampled
+                       ? fmt::format("{:.0f}", milliseconds([&] { sampleBox(*scene.field, scene.box, resolution, h); }))
+                       : std::string();
+  fmt::print("{:20} {:6} {:7} {:9.0f} {:9.1f} {:10.0f} {:9.1f} {:6} {:>10}\n", path.stem().string(), resolution,
+             threads, vertices, time, 1e6 * time / vertices, static_cast<double>(counting->points()) / vertices, growth,
+             box);
+  std::fflush(stdout);
+  previous = time;
+}
+
+}  // namespace
+
+/// Arguments: how many threads, then scenes.
+int main(int argc, char** argv) try {
+  if (argc < 3) {
+    fmt::print(stderr, "usage: scene_bench THREADS SCENE.yaml …\n");
+    return 2;
+  }
+  fmt::print("{:20} {:>6} {:>7} {:>9} {:>9} {:>10} {:>9} {:>6} {:>10}\n", "scene", "cells", "threads", "vertices", "ms",
+             "ns/vertex", "samples/v", "2^", "box, ms");
+  for (int i = 2; i < argc; ++i) {
+    double previous = 0;
+    for (const int resolution : {256, 512, 1024}) printRow(argv[i], resolution, std::atoi(argv[1]), previous);
+  }
+  return 0;
+} catch (const std::exception& e) {
+  fmt::print(stderr, "scene_bench: {}\n", e.what());
+  return 1;
+}
