@@ -349,7 +349,6 @@ struct BlockVertexSolver::Scratch {
   const std::unique_ptr<PlaneNoise> noise;  ///< Null: the source knows none.
   CrossingRows crossings;
   PatchSums patches;
-  std::vector<SurfacePatch> forSource;  ///< The same patches.
   FeaturePlanes planes;
   std::vector<FeaturePlanes::Plane> features;  ///< Of the vertex being solved.
   PatchLanes lanes;
@@ -386,9 +385,8 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   }
   scratch.patches.list(topology.blocks[index], signs);
   scratch.patches.sum(scratch.crossings, edges, scratch.level);
-  scratch.patches.listForSource(scratch.forSource);
   scratch.planes.clear();
-  mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.forSource, scratch.planes);
+  mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.patches.forSource(), scratch.planes);
   const BlockState state{static_cast<std::int32_t>(index),
                          topology.blocks[index].firstVertex,
                          edges,

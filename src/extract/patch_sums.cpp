@@ -43,26 +43,28 @@ unsigned edgesOf(const SpecialCell& special, unsigned present, int v) {
 
 void PatchSums::list(const BlockTopology& topology, const BlockSigns& signs) {
   mPatches.resize(topology.vertexCount);
-  Patch* patch = mPatches.data();
+  mForSource.resize(topology.vertexCount);
+  std::size_t next = 0;
+  const auto add = [&](int cell, bool strict, const PatchEdges& edges, unsigned bits) {
+    mForSource[next] = {static_cast<std::uint16_t>(cell), static_cast<std::uint16_t>(bits)};
+    mPatches[next++] = {static_cast<std::uint16_t>(cell), strict, edges};
+  };
   auto special = topology.special.begin();
   for (int x = 0; x < kBlockSize; ++x)
     for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
       const int bit = std::countr_zero(w), cell = 64 * x + bit;
       const int code = cellCode(signs, x, bit >> 3, bit & 7);
-      *patch = {static_cast<std::uint16_t>(cell), kCellTable[code].strict, kCellEdges[code]};
+      const CellEntry& entry = kCellTable[code];
       if (special == topology.special.end() || special->cell != cell) {
-        ++patch;
+        add(cell, entry.strict, kCellEdges[code], entry.edges);
         continue;
       }
-      for (int v = 0; v < special->vertexCount; ++v)
-        *patch++ = {static_cast<std::uint16_t>(cell), true, PatchEdges(edgesOf(*special, kCellTable[code].edges, v))};
+      for (int v = 0; v < special->vertexCount; ++v) {
+        const unsigned edgesOfVertex = edgesOf(*special, entry.edges, v);
+        add(cell, true, PatchEdges(edgesOfVertex), edgesOfVertex);
+      }
       ++special;
     }
-}
-
-void PatchSums::listForSource(std::vector<SurfacePatch>& out) const {
-  out.clear();
-  for (const Patch& p : mPatches) out.push_back({p.cell, static_cast<std::uint16_t>(p.edges.bits())});
 }
 
 void PatchSums::sum(const CrossingRows& crossings, const EdgeIndex& edges, SimdLevel level) {

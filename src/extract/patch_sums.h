@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <span>
 #include <vector>
 
 #include "extract/block_topology.h"
@@ -21,11 +22,6 @@ struct PatchEdges {
     for (int e = 0; e < kEdges; ++e)
       if ((edges >> e & 1) != 0) edge[count++] = static_cast<std::uint8_t>(e);
     for (int k = count; k < kEdges; ++k) edge[k] = edge[0];
-  }
-  [[nodiscard]] constexpr unsigned bits() const {
-    unsigned b = 0;
-    for (int k = 0; k < count; ++k) b |= 1u << edge[k];
-    return b;
   }
 };
 
@@ -63,11 +59,10 @@ class PatchSums {
   /// \param level changes no bit of it.
   void sum(const CrossingRows& crossings, const EdgeIndex& edges, SimdLevel level);
 
-  /// The same patches as a source takes them.
-  void listForSource(std::vector<SurfacePatch>& out) const;
-
   [[nodiscard]] std::size_t size() const { return mPatches.size(); }
   [[nodiscard]] const Patch& patch(std::size_t i) const { return mPatches[i]; }
+  /// The same patches as a source takes them.
+  [[nodiscard]] std::span<const SurfacePatch> forSource() const { return mForSource; }
   [[nodiscard]] const float* sum(std::size_t i) const { return mSums[i].at; }
   [[nodiscard]] const float* rhs(std::size_t i) const { return mRhs[i].data(); }
 
@@ -77,6 +72,7 @@ class PatchSums {
   };
 
   std::vector<Patch> mPatches;
+  std::vector<SurfacePatch> mForSource;
   std::vector<Row> mSums;
   std::vector<std::array<float, 4>> mRhs;
 };

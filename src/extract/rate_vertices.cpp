@@ -97,9 +97,8 @@ class BlockRater {
     mSource.fillHermite(block, signs, edges, mHermite);
     if (mNoise != nullptr) mSource.fillNoise(block, edges, mHermite, *mNoise);
     mPatches.list(topology, signs);
-    mPatches.listForSource(mForSource);
     mFeatures.clear();
-    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mForSource, mFeatures);
+    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mPatches.forSource(), mFeatures);
     const Mat3d toWorld = inverse(metric.M).transposed();
     for (std::size_t i = 0; i < mPatches.size(); ++i) {
       const std::uint64_t vertex = topology.firstVertex + i;
@@ -151,7 +150,6 @@ class BlockRater {
   const double mNormalVariance;
   HermiteBlock mHermite;
   PatchSums mPatches;
-  std::vector<SurfacePatch> mForSource;
   FeaturePlanes mFeatures;
 };
 

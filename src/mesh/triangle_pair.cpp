@@ -108,13 +108,11 @@ bool meetAnywhere(const Corners& a, const Corners& b) {
 
   // On the line where the planes cross, both triangles leave an interval. Intervals meet where one has an end in the
   // other, and an end is where an edge crosses the other plane; edges within that plane add no end.
-  std::array<Signs, 3> pass;  // of edge i of a and edge j of b
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) pass[i][j] = orient3d(a[i], a[next(i)], b[j], b[next(j)]);
+  const auto pass = [&](int i, int j) { return orient3d(a[i], a[next(i)], b[j], b[next(j)]); };  // Edges of a and b.
   const auto crosses = [](const Signs& s, int i) { return s[i] * s[next(i)] <= 0 && (s[i] != 0 || s[next(i)] != 0); };
   for (int i = 0; i < 3; ++i) {
-    if (crosses(as, i) && agree(pass[i][0], pass[i][1], pass[i][2])) return true;
-    if (crosses(bs, i) && agree(pass[0][i], pass[1][i], pass[2][i])) return true;
+    if (crosses(as, i) && agree(pass(i, 0), pass(i, 1), pass(i, 2))) return true;
+    if (crosses(bs, i) && agree(pass(0, i), pass(1, i), pass(2, i))) return true;
   }
   return false;
 }

@@ -41,7 +41,8 @@ class TileFaces {
   }
 
  private:
-  using Parent = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
+  using Grandparent = typename TreeT::RootNodeType::ChildNodeType;  ///< Of leaves.
+  using Parent = typename Grandparent::ChildNodeType;
   using Accessor = openvdb::tree::ValueAccessor<const TreeT>;
   static constexpr int kTiles = 1 << Parent::LOG2DIM;  ///< Leaf-sized tiles per axis of a leaf's parent.
 
@@ -64,28 +65,41 @@ class TileFaces {
     addCellsAt(lower, axis, blocks);
   }
 
+  /// Tiles of the root and of its children.
   void findAroundLargeTiles(const Monitor& monitor, std::vector<Coord>& blocks) const {
     Accessor accessor(mTree);
-    auto it = mTree.cbeginValueAll();
-    it.setMaxDepth(TreeT::ValueAllCIter::LEAF_DEPTH - 2);
-    for (; it; ++it) {
-      if (mReader.inside(*it) == mBackground) continue;
-      openvdb::CoordBBox box;
-      it.getBoundingBox(box);
-      checkIndex(box.min());
-      checkIndex(box.max());
-      const Coord low = blockOf({box.min().x(), box.min().y(), box.min().z()});
-      const Coord high = blockOf({box.max().x(), box.max().y(), box.max().z()});
-      for (int axis = 0; axis < 3; ++axis)
-        for (const bool upper : {false, true}) {
-          monitor.throwIfStopped();
-          Coord from = low, to = high;
-          from[axis] = to[axis] = upper ? high[axis] + 1 : low[axis] - 1;
-          for (Coord b = from; b[0] <= to[0]; ++b[0])
-            for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
-              for (b[2] = from[2]; b[2] <= to[2]; ++b[2]) visit(b, axis, upper, accessor, blocks);
-        }
+    for (auto tile = mTree.root().cbeginValueAll(); tile; ++tile)
+      if (mReader.inside(*tile) != mBackground)
+        findAround(openvdb::CoordBBox::createCube(tile.getCoord(), Grandparent::DIM), monitor, accessor, blocks);
+    // By their tables: iterators take ten times as long, and most trees have tens of thousands of entries here.
+    std::vector<const Grandparent*> nodes;
+    mTree.getNodes(nodes);
+    for (const Grandparent* node : nodes) {
+      const auto* table = node->getTable();
+      for (openvdb::Index i = 0; i < Grandparent::NUM_VALUES; ++i) {
+        if (node->isChildMaskOn(i) || mReader.inside(table[i].getValue()) == mBackground) continue;
+        findAround(openvdb::CoordBBox::createCube(node->offsetToGlobalCoord(i), Parent::DIM), monitor, accessor,
+                   blocks);
+      }
     }
+  }
+
+  /// Around one tile.
+  void findAround(const openvdb::CoordBBox& box, const Monitor& monitor, Accessor& accessor,
+                  std::vector<Coord>& blocks) const {
+    checkIndex(box.min());
+    checkIndex(box.max());
+    const Coord low = blockOf({box.min().x(), box.min().y(), box.min().z()});
+    const Coord high = blockOf({box.max().x(), box.max().y(), box.max().z()});
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool upper : {false, true}) {
+        monitor.throwIfStopped();
+        Coord from = low, to = high;
+        from[axis] = to[axis] = upper ? high[axis] + 1 : low[axis] - 1;
+        for (Coord b = from; b[0] <= to[0]; ++b[0])
+          for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
+            for (b[2] = from[2]; b[2] <= to[2]; ++b[2]) visit(b, axis, upper, accessor, blocks);
+      }
   }
 
   /// What is known of the leaf-sized children of a node without looking into them.
