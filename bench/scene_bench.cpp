@@ -5,16 +5,16 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -103,20 +103,20 @@ void printRow(const std::filesystem::path& path, int resolution, int threads, do
 
 }  // namespace
 
-/// Arguments: how many threads, then scenes.
-int main(int argc, char** argv) try {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: scene_bench THREADS SCENE.yaml …\n");
-    return 2;
-  }
+int main(int argc, char** argv) {
+  CLI::App app("Times the contouring of scenes");
+  int threads = 2;
+  std::vector<std::filesystem::path> scenes;
+  for (const char* name : {"sphere", "rotated_box", "gyroid", "noise_minus_sphere"})
+    scenes.push_back(std::filesystem::path(PDC_SCENES) / (std::string(name) + ".yaml"));
+  app.add_option("--threads", threads, "How many")->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("SCENES", scenes, "Four of the project's own, unless others are named")->check(CLI::ExistingFile);
+  CLI11_PARSE(app, argc, argv);
   fmt::print("{:20} {:>6} {:>7} {:>9} {:>9} {:>10} {:>9} {:>6} {:>10}\n", "scene", "cells", "threads", "vertices", "ms",
              "ns/vertex", "samples/v", "2^", "box, ms");
-  for (int i = 2; i < argc; ++i) {
+  for (const auto& scene : scenes) {
     double previous = 0;
-    for (const int resolution : {256, 512, 1024}) printRow(argv[i], resolution, std::atoi(argv[1]), previous);
+    for (const int resolution : {256, 512, 1024}) printRow(scene, resolution, threads, previous);
   }
   return 0;
-} catch (const std::exception& e) {
-  fmt::print(stderr, "scene_bench: {}\n", e.what());
-  return 1;
 }

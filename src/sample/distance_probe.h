@@ -9,8 +9,10 @@ namespace pdc::detail {
 struct DistanceProbe {
   /// Median of | |∇φ| − 1 |: near 0 for distances, whatever for other values. Infinite if there are too few values.
   double slopeError;
-  double noise;    ///< Standard deviation of Gaussian noise in the values, in voxels.
-  double texture;  ///< What it would be, were the small differences of the values noise, which they are not.
+  /// Standard deviation of Gaussian noise in the values, in voxels; 0 where there is texture.
+  double noise;
+  /// How rough the surface is at the size of a voxel where that is no Gaussian noise, measured as noise is; or 0.
+  double texture;
 };
 
 /// Looks at up to 64 leaves, spread evenly over the tree.
@@ -19,9 +21,9 @@ struct DistanceProbe {
 /// differences along the axes, over what it is for Gaussian noise of deviation 1: smooth surfaces have third
 /// differences of the order of their curvature's square, and creases move a quartile less than a median. Where most
 /// voxels are beside a crease it is still up to half too high. It is texture instead where fourth differences are as
-/// large, which curvature's are not, but the third ones are not spread as Gaussian noise spreads them: surfaces rough at
-/// the size of a voxel, as scanned meshes are, have many small ones.
-/// \param K from steps in world space, in voxels, to lattice units.
+/// large, which curvature's are not, but the third ones are not spread as Gaussian noise spreads them: surfaces rough
+/// at the size of a voxel, as scanned meshes are, have many small ones. \param K from steps in world space, in voxels,
+/// to lattice units.
 [[nodiscard]] DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double voxelSize);
 
 }  // namespace pdc::detail
