@@ -32,45 +32,36 @@ class PointwiseField final : public Field {
   explicit PointwiseField(const Shape& shape) : mShape(shape) {}
 
   void values(PointSpan points, double* values) const override {
-    forEachBlock(mLevel, points.size / kLanes, [&](std::size_t block) {
-      const std::size_t first = block * kLanes;
-      const double *x = points.x + first, *y = points.y + first, *z = points.z + first;
-      double* f = values + first;
-      // A copy: what `values` points to might be mShape, as far as the compiler knows.
-      const Shape shape = mShape;
-      forEachLane([&](int lane) { f[lane] = shape.value({x[lane], y[lane], z[lane]}); });
+    // A copy: what `values` points to might be mShape, as far as the compiler knows.
+    forEachPoint(points.size, [=, shape = mShape](std::size_t i) {
+      values[i] = shape.value({points.x[i], points.y[i], points.z[i]});
     });
-    for (std::size_t i = points.size - points.size % kLanes; i < points.size; ++i)
-      values[i] = mShape.value({points.x[i], points.y[i], points.z[i]});
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    forEachBlock(mLevel, points.size / kLanes, [&](std::size_t block) {
-      const std::size_t first = block * kLanes;
-      const double *x = points.x + first, *y = points.y + first, *z = points.z + first;
-      double *f = values + first, *gx = gradients.x + first, *gy = gradients.y + first, *gz = gradients.z + first;
-      const Shape shape = mShape;
-      forEachLane([&](int lane) {
-        const ValueGradient at = shape.gradient({x[lane], y[lane], z[lane]});
-        f[lane] = at.value;
-        gx[lane] = at.gradient.x;
-        gy[lane] = at.gradient.y;
-        gz[lane] = at.gradient.z;
-      });
+    forEachPoint(points.size, [=, shape = mShape](std::size_t i) {
+      const ValueGradient f = shape.gradient({points.x[i], points.y[i], points.z[i]});
+      values[i] = f.value;
+      gradients.x[i] = f.gradient.x;
+      gradients.y[i] = f.gradient.y;
+      gradients.z[i] = f.gradient.z;
     });
-    for (std::size_t i = points.size - points.size % kLanes; i < points.size; ++i) {
-      const ValueGradient at = mShape.gradient({points.x[i], points.y[i], points.z[i]});
-      values[i] = at.value;
-      gradients.x[i] = at.gradient.x;
-      gradients.y[i] = at.gradient.y;
-      gradients.z[i] = at.gradient.z;
-    }
   }
 
   [[nodiscard]] Interval bound(const Box& box) const override { return mShape.bound(box); }
   [[nodiscard]] double lipschitz() const override { return mShape.lipschitz(); }
 
  private:
+  /// Calls f(i) for i = 0 … size − 1, sixteen at a time as far as there are as many.
+  template <typename F>
+  void forEachPoint(std::size_t size, const F& f) const {
+    forEachBlock(mLevel, size / kLanes, [f](std::size_t block) {
+      const std::size_t first = block * kLanes;
+      forEachLane([&](int lane) { f(first + static_cast<std::size_t>(lane)); });
+    });
+    for (std::size_t i = size - size % kLanes; i < size; ++i) f(i);
+  }
+
   Shape mShape;
   SimdLevel mLevel = bestSimdLevel();
 };

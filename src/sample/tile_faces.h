@@ -71,7 +71,7 @@ class TileFaces {
     for (auto tile = mTree.root().cbeginValueAll(); tile; ++tile)
       if (mReader.inside(*tile) != mBackground)
         findAround(openvdb::CoordBBox::createCube(tile.getCoord(), Grandparent::DIM), monitor, accessor, blocks);
-    // By their tables: iterators take ten times as long, and most trees have tens of thousands of entries here.
+    // By their tables: iterators take several times as long, and most trees have tens of thousands of entries here.
     std::vector<const Grandparent*> nodes;
     mTree.getNodes(nodes);
     for (const Grandparent* node : nodes) {
