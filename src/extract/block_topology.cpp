@@ -86,11 +86,21 @@ class LowerBlocks {
 /// Counts one block. Cells up to one beyond the block on each side are reached through the neighbouring blocks.
 class BlockCounter {
  public:
-  BlockCounter(const SurfaceBlocks& blocks, const BlockIndex& index, FlipRule rule, std::size_t i, BlockTopology& out)
-      : mBlocks(blocks), mIndex(index), mRule(rule), mCoord(blocks.coords[i]), mSigns(blocks.signs[i]), mOut(out) {}
+  /// \param special the cells of blocks before, to which those of this one are added.
+  BlockCounter(const SurfaceBlocks& blocks, const BlockIndex& index, FlipRule rule, std::size_t i, BlockTopology& out,
+               std::vector<SpecialCell>& special)
+      : mBlocks(blocks),
+        mIndex(index),
+        mRule(rule),
+        mCoord(blocks.coords[i]),
+        mSigns(blocks.signs[i]),
+        mOut(out),
+        mSpecial(special),
+        mFirstSpecial(special.size()) {}
 
-  /// \pre the block's lower neighbours are known.
+  /// Sets all but the block's lower neighbours, its list of special cells and the numbers of its first vertex and quad.
   void run() {
+    mOut.openArcs = 0;
     findCellsAndEdges();
     if (mBlocks.open) dropIncompleteEdges();
     findSpecialCells();
@@ -99,9 +109,8 @@ class BlockCounter {
       mOut.cellsBefore[x] = static_cast<std::uint16_t>(before);
       before += bitCount(mOut.cells.word[x]);
     }
-    mOut.vertexCount = static_cast<std::uint32_t>(before);
-    if (!mOut.special.empty())
-      mOut.vertexCount += mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1u;
+    mOut.vertexCount = static_cast<std::uint32_t>(before + extraVertices());
+    mOut.quadCount = 0;
     for (int i = 0; i < 3 * kBlockSize; ++i) {
       mOut.quadsBefore[i] = static_cast<std::uint16_t>(mOut.quadCount);
       mOut.quadCount += static_cast<std::uint32_t>(bitCount(mOut.edges[i / kBlockSize].word[i % kBlockSize]));
@@ -215,10 +224,14 @@ class BlockCounter {
   }
 
   void addSpecial(int cell, const Patches& vertices, const Patches& patches) {
-    int extra = 0;
-    if (!mOut.special.empty()) extra = mOut.special.back().extraBefore + mOut.special.back().vertexCount - 1;
-    mOut.special.push_back({static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extra),
-                            vertices.vertex, patches.vertex});
+    mSpecial.push_back({static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extraVertices()),
+                        vertices.vertex, patches.vertex});
+  }
+
+  /// Vertices beyond one per cell in the block's special cells so far.
+  [[nodiscard]] unsigned extraVertices() const {
+    if (mSpecial.size() == mFirstSpecial) return 0;
+    return mSpecial.back().extraBefore + mSpecial.back().vertexCount - 1u;
   }
 
   const SurfaceBlocks& mBlocks;
@@ -227,11 +240,13 @@ class BlockCounter {
   const Coord mCoord;
   const BlockSigns& mSigns;
   BlockTopology& mOut;
+  std::vector<SpecialCell>& mSpecial;
+  const std::size_t mFirstSpecial;
   std::array<std::uint64_t, kBlockSize> mMayBeStrict;
 };
 
 /// The first special cell that is not before `cell`.
-std::vector<SpecialCell>::const_iterator firstSpecialFrom(const std::vector<SpecialCell>& special, int cell) {
+std::span<const SpecialCell>::iterator firstSpecialFrom(std::span<const SpecialCell> special, int cell) {
   return std::lower_bound(special.begin(), special.end(), cell,
                           [](const SpecialCell& s, int c) { return int{s.cell} < c; });
 }
@@ -252,17 +267,27 @@ std::uint64_t BlockTopology::specialOffset(int cell, int edge) const {
 }
 
 Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, FlipRule rule) {
+  constexpr std::size_t kChunk = 64;
+  const std::size_t size = blocks.coords.size();
   Topology t;
   t.index = BlockIndex(blocks.coords);
-  t.blocks.resize(blocks.coords.size());
-  BlockProgress progress(monitor, "count", blocks.coords.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 64), [&](const auto& range) {
-    LowerBlocks lower(blocks.coords, range.begin());
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      lower.find(i, t.blocks[i].lower);
-      BlockCounter(blocks, t.index, rule, i, t.blocks[i]).run();
+  t.blocks.resize(size);
+  t.special.resize((size + kChunk - 1) / kChunk);
+  BlockProgress progress(monitor, "count", size);
+  tbb::parallel_for(std::size_t{0}, t.special.size(), [&](std::size_t chunk) {
+    const std::size_t begin = chunk * kChunk, count = std::min(kChunk, size - begin);
+    std::vector<SpecialCell>& special = t.special[chunk];
+    std::array<std::size_t, kChunk + 1> firstSpecial{};
+    LowerBlocks lower(blocks.coords, begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      BlockTopology& block = t.blocks[begin + i];
+      lower.find(begin + i, block.lower);
+      BlockCounter(blocks, t.index, rule, begin + i, block, special).run();
+      firstSpecial[i + 1] = special.size();
     }
-    progress.advance(range.size());
+    for (std::size_t i = 0; i < count; ++i)
+      t.blocks[begin + i].special = std::span(special).subspan(firstSpecial[i], firstSpecial[i + 1] - firstSpecial[i]);
+    progress.advance(count);
   });
   for (BlockTopology& b : t.blocks) {
     b.firstVertex = t.vertexCount;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "extract/cell_table.h"
@@ -21,17 +22,17 @@ struct SpecialCell {
 };
 
 /// Which vertices and quads a block owns: vertices of its cells, quads of the lattice edges that start at one of its
-/// points.
+/// points. Without initial values: there are many, and each is set whole.
 struct BlockTopology {
   CellMask cells;                                         ///< Cells with at least one vertex.
   std::array<CellMask, 3> edges;                          ///< Per axis, the edges that get a quad.
   std::array<std::uint16_t, kBlockSize> cellsBefore;      ///< Cells in the words of `cells` before word x.
   std::array<std::uint16_t, 3 * kBlockSize> quadsBefore;  ///< Of an axis and x: quads of the words of `edges` before.
-  std::array<std::int32_t, 8> lower;  ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
-  std::vector<SpecialCell> special;   ///< By ascending cell.
-  std::uint32_t vertexCount = 0, quadCount = 0;
-  std::uint32_t openArcs = 0;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
-  std::uint64_t firstVertex = 0, firstQuad = 0;
+  std::array<std::int32_t, 8> lower;     ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
+  std::span<const SpecialCell> special;  ///< By ascending cell; in Topology::special.
+  std::uint32_t vertexCount, quadCount;
+  std::uint32_t openArcs;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
+  std::uint64_t firstVertex, firstQuad;
 
   /// The special cell entry of a cell, or null.
   [[nodiscard]] const SpecialCell* findSpecial(int cell) const;
@@ -57,9 +58,14 @@ constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
 
 /// The topology of all blocks, with vertices and quads numbered through in block order.
 struct Topology {
-  std::vector<BlockTopology> blocks;
+  Buffer<BlockTopology> blocks;
+  std::vector<std::vector<SpecialCell>> special;  ///< Of all blocks.
   BlockIndex index;
   std::uint64_t vertexCount = 0, quadCount = 0, openArcs = 0, multiVertexCells = 0;
+
+  Topology() = default;
+  Topology(Topology&&) = default;
+  Topology& operator=(Topology&&) = default;
 };
 
 /// Whether cells on both sides of an ambiguous face may be flipped. kNever exists for the tests, which show what it

@@ -119,8 +119,8 @@ class LeafSigns {
   const Table& mTable;
   const ValueReader<ValueT>& mReader;
   const SimdLevel mLevel = bestSimdLevel();
-  std::vector<CellMask> mInside;
-  std::vector<Side> mSide;
+  Buffer<CellMask> mInside;
+  Buffer<Side> mSide;
 };
 
 }  // namespace pdc::detail

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pdc/error.h"
+#include "pdc/mesh/mesh.h"
 #include "sample/block_index.h"
 
 namespace pdc::detail {
@@ -176,9 +177,9 @@ class LeafTable {
   const TreeT& mTree;
   std::vector<const Parent*> mParents;
   BlockIndex mParentIndex;
-  std::vector<std::array<std::int32_t, Parent::NUM_VALUES>> mPlaces;
-  std::vector<Neighbours> mAround;
-  std::vector<Leaf> mLeaves;
+  Buffer<std::array<std::int32_t, Parent::NUM_VALUES>> mPlaces;
+  Buffer<Neighbours> mAround;
+  Buffer<Leaf> mLeaves;
 };
 
 }  // namespace pdc::detail

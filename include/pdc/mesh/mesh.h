@@ -21,8 +21,8 @@ void freeLarge(void* p) noexcept;
 inline constexpr std::size_t kLargeBytes = std::size_t{1} << 19;
 }  // namespace detail
 
-/// An allocator that leaves trivial elements uninitialised on resize, so that large arrays are first touched by the
-/// threads that fill them.
+/// An allocator that leaves elements that are copied byte by byte uninitialised on resize, whatever their members'
+/// initial values, so that large arrays are first touched by the threads that fill them.
 template <typename T>
 struct UninitializedAllocator {
   using value_type = T;
@@ -42,11 +42,8 @@ struct UninitializedAllocator {
 
   template <typename U, typename... Args>
   void construct(U* p, Args&&... args) {
-    if constexpr (sizeof...(Args) == 0 && std::is_trivially_destructible_v<U>) {
-      ::new (static_cast<void*>(p)) U;
-    } else {
+    if constexpr (sizeof...(Args) != 0 || !std::is_trivially_copyable_v<U>)
       ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
-    }
   }
   friend bool operator==(const UninitializedAllocator&, const UninitializedAllocator&) { return true; }
 };
