@@ -3,22 +3,11 @@
 #include <cstdint>
 
 #include "extract/block_topology.h"
-#include "extract/block_vertices.h"
+#include "extract/loose_vertex.h"
+#include "extract/vertex_errors.h"
+#include "pdc/math/simd_level.h"
 
 namespace pdc::detail {
-
-/// The errors of two runs of consecutive vertices, those of a window of blocks and of the one before.
-struct ErrorWindow {
-  const VertexError* previous;
-  const VertexError* current;
-  std::uint64_t previousFirst, currentFirst;
-
-  [[nodiscard]] const VertexError& operator[](std::uint64_t vertex) const {
-    return vertex >= currentFirst ? current[vertex - currentFirst] : previous[vertex - previousFirst];
-  }
-};
-
-class CellVertices;
 
 /// Writes the faces of blocks whose vertices and lower neighbours' vertices are solved: quad i of the topology to
 /// quads[i]. Each starts at the corner that puts its diagonal where the summed
@@ -32,13 +21,10 @@ class BlockFaceWriter {
 
   /// \param doubts null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
   /// Such a quad is split along the other diagonal if that one passes.
-  void run(std::size_t block, const ErrorWindow& errors, Doubts* doubts) const;
+  void run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const;
 
  private:
-  template <int axis>
-  void runAxis(std::size_t block, const CellVertices& vertices, const ErrorWindow& errors, Doubts* doubts,
-               std::uint64_t face) const;
-  void write(const Quad& v, bool splitsAtFirst, bool reversed, std::uint64_t face) const;
+  class Block;
 
   const SurfaceBlocks& mBlocks;
   const Topology& mTopology;

@@ -6,9 +6,10 @@
 #include <limits>
 
 #include "extract/cell_rounding.h"
-#include "extract/crossing_rows.h"
-#include "extract/float_lanes.h"
+#include "extract/crossing_planes.h"
+#include "extract/patch_list.h"
 #include "extract/patch_sums.h"
+#include "math/float_lanes.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_batch.h"
 
@@ -59,17 +60,14 @@ struct BlockState {
 
 /// Sixteen patches, one per lane; those beyond the block's last repeat it.
 struct PatchLanes {
-  /// Lanes of the entries of PatchSums::sum, then of rhs.
-  alignas(64) float sum[20][kLanes];
-  alignas(64) float cellX[kLanes], cellY[kLanes], cellZ[kLanes];  ///< Centres from the block's origin.
-  NormalEquationsLanes<float> system;                             ///< About the mass points.
+  PatchSums sums;
+  alignas(64) std::uint32_t cell[kLanes];
+  NormalEquationsLanes<float> system;  ///< About the mass points.
   SolutionLanes<float> step;
-  Vec3Lanes<float> mass;  ///< From the centre of the cell.
+  Vec3Lanes<float> mass;  ///< From the low corner of the cell.
   alignas(64) float reach[kLanes];
   alignas(64) float error[12][kLanes];  ///< Of VertexError.
   alignas(64) float position[4][kLanes];
-
-  [[nodiscard]] float* sumLane(int quarter, int lane) { return &sum[4 * quarter][lane]; }
 };
 
 }  // namespace
@@ -96,7 +94,7 @@ struct BlockVertexSolver::Scratch {
     } else {
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
-        gather(first, used);
+        sum(block, patches.patches().subspan(first, static_cast<std::size_t>(used)));
         solve(block, sigmaOf);
         write(block, first, used);
         for (int lane = 0; lane < used; ++lane)
@@ -108,26 +106,15 @@ struct BlockVertexSolver::Scratch {
       }
     }
     if (block.out.normals != nullptr)
-      for (std::size_t i = 0; i < count; ++i)
-        block.out.normals[block.firstVertex + i] = meanNormal(block, patches.patch(i));
+      for (std::size_t i = 0; i < count; ++i) block.out.normals[block.firstVertex + i] = meanNormal(block, patches[i]);
   }
 
-  void gather(std::size_t first, int used) {
-    for (int lane = 0; lane < kLanes; lane += 4) {
-      const float *sum[4], *rhs[4];
-      for (int k = 0; k < 4; ++k) {
-        const std::size_t i = first + std::min(lane + k, used - 1);
-        sum[k] = patches.sum(i);
-        rhs[k] = patches.rhs(i);
-        const Patch& p = patches.patch(i);
-        lanes.cellX[lane + k] = static_cast<float>(p.x()) + 0.5F;
-        lanes.cellY[lane + k] = static_cast<float>(p.y()) + 0.5F;
-        lanes.cellZ[lane + k] = static_cast<float>(p.z()) + 0.5F;
-      }
-      for (int quarter = 0; quarter < 4; ++quarter)
-        transpose4({sum[0] + 4 * quarter, sum[1] + 4 * quarter, sum[2] + 4 * quarter, sum[3] + 4 * quarter},
-                   lanes.sumLane(quarter, lane), kLanes);
-      transpose4({rhs[0], rhs[1], rhs[2], rhs[3]}, lanes.sumLane(4, lane), kLanes);
+  void sum(const BlockState& block, std::span<const SurfacePatch> some) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes.cell[lane] = some[std::min(lane, some.size() - 1)].cell;
+    if (noise != nullptr) {
+      PatchSummer<true>(crossings, block.edges, matrixCast(block.metric.G)).run(some, lanes.sums);
+    } else {
+      PatchSummer<false>(crossings, block.edges, {}).run(some, lanes.sums);
     }
   }
 
@@ -142,18 +129,17 @@ struct BlockVertexSolver::Scratch {
     const auto inCell = static_cast<float>(block.cellHalfSize);
     const float snapped = promised ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
     forEachLane([&](int i) {
-      const float n = l.sum[15][i], inverse = 1.0F / n;
-      const Vec3f mass{l.sum[3][i] * inverse - l.cellX[i], l.sum[7][i] * inverse - l.cellY[i],
-                       l.sum[11][i] * inverse - l.cellZ[i]};
-      const SymMat3<float> A{l.sum[0][i], l.sum[1][i], l.sum[2][i], l.sum[5][i], l.sum[6][i], l.sum[10][i]};
+      const float n = l.sums.weight[i];
+      const Vec3f mass = l.sums.place.get(i) * (1.0F / n);
+      const SymMat3<float> A = l.sums.A.get(i);
       l.mass.set(i, mass);
-      l.system.b.set(i, Vec3f{l.sum[16][i], l.sum[17][i], l.sum[18][i]} - A * mass);
+      l.system.b.set(i, l.sums.b.get(i) - A * mass);
       l.system.A.set(i, A + S * (n * sigmaOf(A, n)));
     });
     solveLdlt(std::span<const NormalEquationsLanes<float>>(&l.system, 1), std::span<SolutionLanes<float>>(&l.step, 1),
               level);
     forEachLane([&](int i) {
-      const Vec3f v = l.mass.get(i) + l.step.x.get(i);
+      const Vec3f v = l.mass.get(i) - Vec3f{0.5F, 0.5F, 0.5F} + l.step.x.get(i);
       const SymMat3<float> A = l.system.A.get(i);
       const Vec3f b = A * v;
       const float ax = std::abs(v.x), ay = std::abs(v.y), az = std::abs(v.z), xy = ax > ay ? ax : ay;
@@ -167,8 +153,10 @@ struct BlockVertexSolver::Scratch {
     if (!map.affine()) return;
     const Vec3d base = map.position(block.origin);
     forEachLane([&](int i) {
-      const Vec3d inBlock{double(l.cellX[i]) + double(l.error[0][i]), double(l.cellY[i]) + double(l.error[1][i]),
-                          double(l.cellZ[i]) + double(l.error[2][i])};
+      const auto from = [](std::uint32_t low, float x) { return double(static_cast<float>(low) + 0.5F) + double(x); };
+      const std::uint32_t cell = l.cell[i];
+      const Vec3d inBlock{from(cell >> 6, l.error[0][i]), from(cell >> 3 & 7, l.error[1][i]),
+                          from(cell & 7, l.error[2][i])};
       const Vec3d p = linear * inBlock + base;
       l.position[0][i] = static_cast<float>(p.x);
       l.position[1][i] = static_cast<float>(p.y);
@@ -179,53 +167,46 @@ struct BlockVertexSolver::Scratch {
   /// Vertices of a block are neighbours in memory.
   void write(const BlockState& block, std::size_t first, int used) {
     const std::uint64_t vertex = block.firstVertex + first;
-    VertexError* error = &block.out.errors[vertex - block.out.firstError];
     alignas(64) float positions[kLanes][4];
-    alignas(64) float errors[kLanes][12];
-    static_assert(sizeof errors[0] == sizeof *error);
+    alignas(64) VertexError errors[kLanes];
     for (int lane = 0; lane < kLanes; lane += 4) {
       for (int part = 0; part < 3; ++part)
-        transpose4(&lanes.error[4 * part][lane], kLanes, &errors[lane][4 * part], 12);
+        transpose4(&lanes.error[4 * part][lane], kLanes, reinterpret_cast<float*>(&errors[lane]) + 4 * part, 12);
       transpose4(&lanes.position[0][lane], kLanes, positions[lane], 4);
     }
-    if (used == kLanes) {
-      std::memcpy(error, errors, sizeof errors);
-    } else {
-      std::memcpy(error, errors, used * sizeof errors[0]);
-    }
+    for (int lane = 0; lane < used; ++lane) (*block.out.errors)[vertex + lane] = errors[lane];
     Vec3f* position = block.out.positions + vertex;
     if (map.affine()) {
       for (int lane = 0; lane < used; ++lane)
         position[lane] = {positions[lane][0], positions[lane][1], positions[lane][2]};
     } else {
       for (int lane = 0; lane < used; ++lane)
-        position[lane] = worldPosition(block, patches.patch(first + lane), vecCast<double>(error[lane].x));
+        position[lane] = worldPosition(block, patches[first + lane], vecCast<double>(errors[lane].x));
     }
   }
 
   [[nodiscard]] bool mustSolveAlone(const BlockState& block, std::size_t i, int lane) const {
-    const Patch& patch = patches.patch(i);
     if (planes.find(i) != nullptr) return true;
     const bool promised = block.out.doubts != nullptr;
     const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
-    return lanes.step.solved[lane] == 0 || (promised && patch.strict) || !(lanes.reach[lane] <= limit);
+    return lanes.step.solved[lane] == 0 || (promised && patches.strict(i)) || !(lanes.reach[lane] <= limit);
   }
 
   void solveAlone(const BlockState& block, std::size_t i) {
-    const Patch& patch = patches.patch(i);
-    const Vec3d center{patch.x() + 0.5, patch.y() + 0.5, patch.z() + 0.5};
-    const std::uint16_t* number = block.edges.numbers() + patch.slot();
-    samples.size = patch.edges.count;
-    for (int k = 0; k < samples.size; ++k) {
-      const int e = patch.edges.edge[k], edge = number[kEdgeSlot[e]];
+    const SurfacePatch& patch = patches[i];
+    const Vec3d center = centerOf(patch);
+    samples.size = 0;
+    forEachEdge(patch, block.edges, [&](int e, int edge) {
+      const int k = samples.size++;
       sampleAxis[k] = edgeAxis(e);
-      samples.position[k] = vecCast<double>(crossings.place(edge)) - center;
+      samples.position[k] = lowEnd(e) - Vec3d{0.5, 0.5, 0.5};
+      samples.position[k][edgeAxis(e)] += double(crossings.t(edge));
       samples.row[k] = vecCast<double>(crossings.plane(edge));
-      if (noise == nullptr) continue;
+      if (noise == nullptr) return;
       const double own = noise->sigma[edge];
       samples.variance[k] = own * own;
-      samples.weight[k] = std::max(noise->weight[edge], CrossingRows::kLeastWeight);
-    }
+      samples.weight[k] = std::max(noise->weight[edge], CrossingPlanes::kLeastWeight);
+    });
     samples.features = {};
     if (const FeaturePlanes::Patch* feature = planes.find(i)) {
       // About the centre of the cell.
@@ -239,17 +220,17 @@ struct BlockVertexSolver::Scratch {
     block.counts.moved += v.moved;
     const std::uint64_t vertex = block.firstVertex + i;
     Vec3f x = vecCast<float>(v.x);
-    if (block.out.doubts != nullptr) x = keepOrNote(block, patch, vertex, v.x);
+    if (block.out.doubts != nullptr) x = keepOrNote(block, i, vertex, v.x);
     block.out.positions[vertex] = worldPosition(block, patch, vecCast<double>(x));
-    block.out.errors[vertex - block.out.firstError] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
+    (*block.out.errors)[vertex] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
   }
 
   /// Puts a vertex whose free place is `x` into its cell where that costs nothing; or notes it as loose. \returns where
   /// it is now.
-  Vec3f keepOrNote(const BlockState& block, const Patch& patch, std::uint64_t vertex, const Vec3d& x) {
+  Vec3f keepOrNote(const BlockState& block, std::size_t i, std::uint64_t vertex, const Vec3d& x) {
     Vec3f free = vecCast<float>(x);
     Vec3d safe{};
-    if (patch.strict) {
+    if (patches.strict(i)) {
       safe = meanCrossing();
     } else if (reach(free) <= block.cellHalfSize + kSnap) {
       clampToCube(free, block.cellHalfSize);
@@ -261,7 +242,7 @@ struct BlockVertexSolver::Scratch {
     }
     clampToCube(safe, block.cellHalfSize);
     block.out.doubts->vertices.push_back(
-        {vertex, block.index, patch.cell, free, vecCast<float>(safe), creaseNormals(block, x)});
+        {vertex, block.index, patches[i].cell, free, vecCast<float>(safe), creaseNormals(block, x)});
     return free;
   }
 
@@ -321,19 +302,22 @@ struct BlockVertexSolver::Scratch {
     return {f(A.xx), f(A.xy), f(A.xz), f(A.yy), f(A.yz), f(A.zz)};
   }
 
-  [[nodiscard]] Vec3f worldPosition(const BlockState& block, const Patch& patch, const Vec3d& x) const {
-    const Vec3d inBlock = Vec3d{patch.x() + 0.5, patch.y() + 0.5, patch.z() + 0.5} + x;
+  [[nodiscard]] static Vec3d centerOf(const SurfacePatch& patch) {
+    const Coord low = cellOf(patch);
+    return {low[0] + 0.5, low[1] + 0.5, low[2] + 0.5};
+  }
+
+  [[nodiscard]] Vec3f worldPosition(const BlockState& block, const SurfacePatch& patch, const Vec3d& x) const {
+    const Vec3d inBlock = centerOf(patch) + x;
     return vecCast<float>(map.affine() ? linear * inBlock + map.position(block.origin)
                                        : map.position(block.origin + inBlock));
   }
 
-  [[nodiscard]] Vec3f meanNormal(const BlockState& block, const Patch& patch) const {
-    const std::uint16_t* number = block.edges.numbers() + patch.slot();
+  [[nodiscard]] Vec3f meanNormal(const BlockState& block, const SurfacePatch& patch) const {
     Vec3d sum{};
-    for (int k = 0; k < patch.edges.count; ++k) {
-      const int i = number[kEdgeSlot[patch.edges.edge[k]]];
+    forEachEdge(patch, block.edges, [&](int /*e*/, int i) {
       sum += Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
-    }
+    });
     const double l = length(sum);
     return vecCast<float>(l > 0 ? sum * (1 / l) : Vec3d{});
   }
@@ -347,8 +331,8 @@ struct BlockVertexSolver::Scratch {
   SymMat3<float> Sigma_n;
   HermiteBlock hermite;
   const std::unique_ptr<PlaneNoise> noise;  ///< Null: the source knows none.
-  CrossingRows crossings;
-  PatchSums patches;
+  CrossingPlanes crossings;
+  PatchList patches;
   FeaturePlanes planes;
   std::vector<FeaturePlanes::Plane> features;  ///< Of the vertex being solved.
   PatchLanes lanes;
@@ -379,14 +363,12 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   if (scratch.noise != nullptr) {
     mSource.fillNoise(block, edges, scratch.hermite, *scratch.noise);
     // From the data, σn takes its time: until the sums are known.
-    scratch.crossings.addNoise(*scratch.noise, scratch.hermite, edges, metric,
-                               sigma.ofPatches() ? 0 : sigma.variance());
+    scratch.crossings.setNoise(*scratch.noise, edges, sigma.ofPatches() ? 0 : sigma.variance());
     if (!sigma.ofPatches()) scratch.Sigma_n = {};
   }
-  scratch.patches.list(topology.blocks[index], signs);
-  scratch.patches.sum(scratch.crossings, edges, scratch.level);
+  scratch.patches.fill(topology.blocks[index], signs);
   scratch.planes.clear();
-  mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.patches.forSource(), scratch.planes);
+  mSource.fillFeaturePlanes(block, signs, edges, scratch.hermite, scratch.patches.patches(), scratch.planes);
   const BlockState state{static_cast<std::int32_t>(index),
                          topology.blocks[index].firstVertex,
                          edges,

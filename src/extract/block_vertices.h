@@ -5,18 +5,11 @@
 
 #include "extract/block_topology.h"
 #include "extract/loose_vertex.h"
+#include "extract/vertex_errors.h"
 #include "extract/vertex_solver.h"
 #include "pdc/math/simd_level.h"
 
 namespace pdc::detail {
-
-/// What the choice of a quad's diagonal needs to know of each vertex: its place and its quadric, in lattice units from
-/// the centre of its cell.
-struct VertexError {
-  Vec3f x;
-  SymMat3<float> A;
-  Vec3f b;
-};
 
 struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
@@ -31,12 +24,11 @@ struct VertexCounts {
   }
 };
 
-/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and errors[i - firstError].
+/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and errors[i].
 struct VertexOutput {
   Vec3f* positions;
   Vec3f* normals;
-  VertexError* errors;
-  std::uint64_t firstError;
+  VertexErrors* errors;
   Doubts* doubts;  ///< Null: wherever a vertex comes to lie is right.
 };
 

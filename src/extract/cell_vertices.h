@@ -39,13 +39,14 @@ class CellVertices {
         (dy != 0 ? std::uint64_t{0xFF} << 56 : ~std::uint64_t{0}) & (dz != 0 ? 0x8080808080808080 : ~std::uint64_t{0});
     for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
       const std::uint64_t word = b.cells.word[x];
-      const std::uint64_t before = b.firstVertex + b.cellsBefore[x];
-      const int first =
-          index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);  // Of a cell that may lie outside.
+      // Of a cell that may lie outside.
+      std::uint32_t* first = &mVertex[0] + index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
+      auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
+      const bool all = (dy | dz) == 0;
       for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w);
-        mVertex[first + kStep[1] * (bit >> 3) + (bit & 7)] =
-            static_cast<std::uint32_t>(before + bitCount(word & ((std::uint64_t{1} << bit) - 1)));
+        std::uint32_t& to = first[bit + (bit >> 3)];
+        to = all ? number++ : number + static_cast<std::uint32_t>(bitCount(word & ((std::uint64_t{1} << bit) - 1)));
       }
     }
   }

@@ -70,16 +70,11 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
   BlockProgress progress(monitor, "contour", blocks.coords.size());
 
   const std::vector<std::size_t> ends = windowEnds(blocks.coords);
-  const std::size_t most = largestWindow(topology, ends);
-  Buffer<VertexError> current(most), previous(most);
-  std::uint64_t currentFirst = 0, previousFirst = 0;
+  // Faces reach back into the window before.
+  VertexErrors errors(2 * largestWindow(topology, ends));
   std::size_t begin = 0;
   for (const std::size_t end : ends) {
-    current.swap(previous);
-    previousFirst = currentFirst;
-    currentFirst = topology.blocks[begin].firstVertex;
-    const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, current.data(),
-                           currentFirst, nullptr};
+    const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &errors, nullptr};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
       monitor.throwIfStopped();
       BlockVertexSolver& block = solvers.local();
@@ -88,7 +83,6 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
       if (doubts != nullptr) mine.doubts = &found.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i) block.run(i, blocks, topology, mine, count);
     });
-    const ErrorWindow errors{previous.data(), current.data(), previousFirst, currentFirst};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
       Doubts* mine = doubts != nullptr ? &found.local() : nullptr;
       for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors, mine);

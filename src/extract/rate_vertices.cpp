@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "extract/block_progress.h"
-#include "extract/patch_sums.h"
+#include "extract/patch_list.h"
 #include "extract/sigma_normal.h"
 #include "extract/vertex_solver.h"
 #include "mesh/faces.h"
@@ -96,9 +96,9 @@ class BlockRater {
     const CellMetric metric = blockMetric(mMap, origin);
     mSource.fillHermite(block, signs, edges, mHermite);
     if (mNoise != nullptr) mSource.fillNoise(block, edges, mHermite, *mNoise);
-    mPatches.list(topology, signs);
+    mPatches.fill(topology, signs);
     mFeatures.clear();
-    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mPatches.forSource(), mFeatures);
+    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mPatches.patches(), mFeatures);
     const Mat3d toWorld = inverse(metric.M).transposed();
     for (std::size_t i = 0; i < mPatches.size(); ++i) {
       const std::uint64_t vertex = topology.firstVertex + i;
@@ -113,8 +113,8 @@ class BlockRater {
         for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
       } else {
-        planes.known = mNoise != nullptr ? meanVariance(mPatches.patch(i), edges) : mNormalVariance;
-        addCrossings(mPatches.patch(i), edges, add);
+        planes.known = mNoise != nullptr ? meanVariance(mPatches[i], edges) : mNormalVariance;
+        addCrossings(mPatches[i], edges, add);
       }
       ratings[vertex] = rate(planes);
       ratings[vertex].onCrease = feature != nullptr && feature->count > 1;
@@ -124,24 +124,20 @@ class BlockRater {
  private:
   /// Of the patch's crossings. A normal's noise is that of the values over the gradient, near enough, and that of the
   /// distance too.
-  [[nodiscard]] double meanVariance(const Patch& patch, const EdgeIndex& edges) const {
+  [[nodiscard]] double meanVariance(const SurfacePatch& patch, const EdgeIndex& edges) const {
     double sum = 0;
-    for (int k = 0; k < patch.edges.count; ++k) {
-      const double s = mNoise->sigma[edges.numbers()[patch.slot() + kEdgeSlot[patch.edges.edge[k]]]];
-      sum += s * s;
-    }
-    return sum / patch.edges.count;
+    forEachEdge(patch, edges, [&](int /*e*/, int i) { sum += square(mNoise->sigma[i]); });
+    return sum / std::popcount(patch.edges);
   }
 
   template <typename Add>
-  void addCrossings(const Patch& patch, const EdgeIndex& edges, const Add& add) const {
-    for (int k = 0; k < patch.edges.count; ++k) {
-      const int e = patch.edges.edge[k], low = edgeLowCorner(e);
-      const int i = edges.numbers()[patch.slot() + kEdgeSlot[e]];
-      Vec3d point{double(patch.x() + (low & 1)), double(patch.y() + (low >> 1 & 1)), double(patch.z() + (low >> 2))};
+  void addCrossings(const SurfacePatch& patch, const EdgeIndex& edges, const Add& add) const {
+    const Coord cell = cellOf(patch);
+    forEachEdge(patch, edges, [&](int e, int i) {
+      Vec3d point = Vec3d{double(cell[0]), double(cell[1]), double(cell[2])} + lowEnd(e);
       point[edgeAxis(e)] += mHermite.t[i];
       add(Vec3d{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]}, point);
-    }
+    });
   }
 
   const HermiteSource& mSource;
@@ -149,7 +145,7 @@ class BlockRater {
   const std::unique_ptr<PlaneNoise> mNoise;  ///< Null: the source knows none.
   const double mNormalVariance;
   HermiteBlock mHermite;
-  PatchSums mPatches;
+  PatchList mPatches;
   FeaturePlanes mFeatures;
 };
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "extract/float4.h"
+#include "math/float4.h"
 #include "mesh/triangle_pair.h"
 
 namespace pdc::detail {

@@ -310,30 +310,30 @@ class TypedGridSampler final : public GridSampler {
   void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
     const HaloRows needed(edges);
     const typename Table::Around around(mTable, block);
-    for (int px = -1; px <= 1; ++px)
-      for (int py = -1; py <= 1; ++py) {
-        // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
-        constexpr std::array<int, 3> kFirst{-1, 0, 8}, kEnd{0, 8, 10};
-        const int endX = kEnd[px + 1], firstY = kFirst[py + 1], endY = kEnd[py + 1];
-        if (!needed.any(kFirst[px + 1], endX, firstY, endY)) continue;
-        std::array<Rows, 3> rows;
-        for (int pz = 0; pz < 3; ++pz)
-          if (pz != 0 || needed.below()) rows[pz].find(mTable, around(px, py, pz - 1));
-        for (int x = kFirst[px + 1]; x < endX; ++x)
-          for (int y = firstY; y < endY; ++y) {
-            if (!needed.row(x, y)) continue;
-            float* to = &halo.value[Halo::index(x, y, -1)];
-            if (needed.below()) mReader.template copy<1>(rows[0].at(x, y) + 7, to);
-            mReader.template copy<8>(rows[1].at(x, y), to + 1);
-            mReader.template copy<2>(rows[2].at(x, y), to + 9);
-          }
-      }
+    forEachBlock(mLevel, 9, [&](std::size_t part) {
+      // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
+      constexpr std::array<int, 3> kFirst{-1, 0, 8}, kEnd{0, 8, 10};
+      const int px = static_cast<int>(part) / 3, py = static_cast<int>(part) % 3;
+      if (!needed.any(kFirst[px], kEnd[px], kFirst[py], kEnd[py])) return;
+      std::array<Rows, 3> rows;
+      for (int pz = 0; pz < 3; ++pz)
+        if (pz != 0 || needed.below()) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
+      for (int x = kFirst[px]; x < kEnd[px]; ++x)
+        for (int y = kFirst[py]; y < kEnd[py]; ++y) {
+          if (!needed.row(x, y)) continue;
+          float* to = &halo.value[Halo::index(x, y, -1)];
+          if (needed.below()) mReader.template copy<1>(rows[0].at(x, y) + 7, to);
+          mReader.template copy<8>(rows[1].at(x, y), to + 1);
+          mReader.template copy<2>(rows[2].at(x, y), to + 9);
+        }
+    });
   }
 
   typename GridT::ConstPtr mGrid;
   GridReading mReading;
   ValueReader<ValueT> mReader;
   Table mTable;
+  const SimdLevel mLevel = bestSimdLevel();
   float mLow, mHigh;
 };
 

@@ -1,5 +1,7 @@
 #include "pdc/sample/hermite_block.h"
 
+#include <algorithm>
+
 namespace pdc {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr auto kPlanePoint = [] {
 }  // namespace
 
 EdgeIndex::EdgeIndex(const BlockSigns& signs) {
+  std::fill(mNumber.begin() + kNoSlot, mNumber.end(), std::uint16_t{0});
   int n = 0;
   // Numbers the edges along `axis` whose low ends are in a plane; rowBits(y) says which of a row change sign.
   const auto addPlane = [&](int axis, int x, auto&& rowBits) {

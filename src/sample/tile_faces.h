@@ -5,6 +5,9 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "pdc/monitor.h"
@@ -102,35 +105,46 @@ class TileFaces {
       }
   }
 
-  /// What is known of the leaf-sized children of a node without looking into them.
-  enum class Child : std::uint8_t { kLeaf, kBackground, kOther };
+  /// Sixteen leaf-sized places of a node in a row along z.
+  using Row = std::uint16_t;
+  static_assert(kTiles == 16);
 
   void findInParent(const Parent& node, Accessor& accessor, std::vector<Coord>& blocks) const {
     constexpr int n = kTiles;
-    std::array<Child, n * n * n> child;
-    bool any = false;
-    const auto* table = node.getTable();
-    for (openvdb::Index i = 0; i < Parent::NUM_VALUES; ++i) {
-      child[i] = node.isChildMaskOn(i)                                ? Child::kLeaf
-                 : mReader.inside(table[i].getValue()) == mBackground ? Child::kBackground
-                                                                      : Child::kOther;
-      any = any || child[i] == Child::kOther;
+    std::array<Row, n * n> background, other;  // Tiles of the background's side, and those of the other one.
+    unsigned any = 0;
+    for (int r = 0; r < n * n; ++r) {
+      unsigned differs = 0;
+      for (int z = 0; z < n; ++z)
+        differs |= unsigned{mReader.inside(node.getTable()[n * r + z].getValue()) != mBackground} << z;
+      const auto leaves = node.getChildMask().template getWord<std::uint64_t>(static_cast<openvdb::Index>(r / 4));
+      const auto tiles = static_cast<unsigned>(~leaves >> n * (r % 4));
+      other[r] = static_cast<Row>(differs & tiles);
+      background[r] = static_cast<Row>(~differs & tiles);
+      any |= other[r];
     }
-    if (!any) return;
+    if (any == 0) return;
     const Coord origin = blockOf({node.origin().x(), node.origin().y(), node.origin().z()});
-    for (int i = 0; i < n * n * n; ++i) {
-      if (child[i] != Child::kOther) continue;
-      const std::array<int, 3> at{i / (n * n), i / n % n, i % n};
-      for (int axis = 0; axis < 3; ++axis)
-        for (const int step : {-1, 1}) {
-          constexpr std::array<int, 3> kStride{n * n, n, 1};
-          const int there = at[axis] + step;
-          const bool within = there >= 0 && there < n;
-          if (within && child[i + step * kStride[axis]] != Child::kBackground) continue;
-          Coord b{origin[0] + at[0], origin[1] + at[1], origin[2] + at[2]};
+    for (int r = 0; r < n * n; ++r) {
+      if (other[r] == 0) continue;
+      const int x = r / n, y = r % n;
+      const auto visitBeside = [&](int axis, int step, unsigned places) {
+        for (unsigned w = places; w != 0; w &= w - 1) {
+          Coord b{origin[0] + x, origin[1] + y, origin[2] + std::countr_zero(w)};
           b[axis] += step;
           visit(b, axis, step > 0, accessor, blocks);
         }
+      };
+      for (const int step : {-1, 1}) {
+        // What lies beyond the node may be anything.
+        const auto row = [&](int u, int there) {
+          return u + step < 0 || u + step >= n ? ~0u : unsigned{background[there]};
+        };
+        visitBeside(0, step, other[r] & row(x, r + n * step));
+        visitBeside(1, step, other[r] & row(y, r + step));
+      }
+      visitBeside(2, -1, other[r] & (unsigned{background[r]} << 1 | 1));
+      visitBeside(2, 1, other[r] & (unsigned{background[r]} >> 1 | 1u << (n - 1)));
     }
   }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "math/float4.h"
 #include "sample/grid_sampler.h"
 
 namespace pdc::detail {
@@ -17,7 +18,11 @@ template <typename ValueT>
 class ValueReader {
  public:
   explicit ValueReader(const GridReading& r)
-      : mIso(r.iso), mHigher(r.insideIsHigher), mSign(r.insideIsHigher ? -1.0F : 1.0F), mIsoFloat(float(r.iso)) {}
+      : mIso(r.iso),
+        mHigher(r.insideIsHigher),
+        mSign(r.insideIsHigher ? -1.0F : 1.0F),
+        mIsoFloat(float(r.iso)),
+        mIsoIsFloat(static_cast<double>(mIsoFloat) == mIso) {}
 
   [[nodiscard]] bool inside(ValueT v) const {
     const auto d = static_cast<double>(v);
@@ -36,8 +41,10 @@ class ValueReader {
   void copy(const ValueT* from, float* to) const {
     if constexpr (std::is_same_v<ValueT, float>) {
       // What double precision would give, where the isovalue is a float.
-      if (static_cast<double>(mIsoFloat) == mIso) {
-        for (int i = 0; i < count; ++i) to[i] = (from[i] - mIsoFloat) * mSign;
+      if (mIsoIsFloat) {
+        int i = 0;
+        for (; i + 4 <= count; i += 4) store((loadFloat4(from + i) - mIsoFloat) * mSign, to + i);
+        for (; i < count; ++i) to[i] = (from[i] - mIsoFloat) * mSign;
         return;
       }
     }
@@ -53,7 +60,7 @@ class ValueReader {
       for (int i = 0; i < 64; ++i) bad |= !(std::abs(from[i]) <= std::numeric_limits<ValueT>::max());
       allFinite = allFinite && bad == 0;
     }
-    if (std::is_same_v<ValueT, float> && static_cast<double>(mIsoFloat) == mIso) {
+    if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
       const auto iso = static_cast<ValueT>(mIsoFloat);
       if (mHigher) {
         for (int i = 0; i < 64; ++i) flag[i] = from[i] > iso;
@@ -83,6 +90,7 @@ class ValueReader {
   double mIso;
   bool mHigher;
   float mSign, mIsoFloat;
+  bool mIsoIsFloat;
 };
 
 }  // namespace pdc::detail

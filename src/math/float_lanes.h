@@ -2,9 +2,8 @@
 
 #include <array>
 #include <cstddef>
-#include <cstring>
 
-#include "extract/float4.h"
+#include "math/float4.h"
 #include "pdc/math/quadric_lanes.h"
 
 namespace pdc::detail {
@@ -12,13 +11,6 @@ namespace pdc::detail {
 /// One float per lane, or a row of sixteen.
 using Float16 = float __attribute__((vector_size(64)));
 static_assert(sizeof(Float16) == kLanes * sizeof(float));
-
-inline Float4 loadFloat4(const float* p) {
-  Float4 v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(Float4 v, float* p) { std::memcpy(p, &v, sizeof v); }
 
 /// Row k of `to` becomes column k of the four rows; `toStep` lies between the starts of rows.
 inline void transpose4(const std::array<const float*, 4>& from, float* to, std::size_t toStep) {
