@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 
 #include "pdc/math/quadric_lanes.h"
 #include "pdc/math/simd_level.h"
@@ -24,9 +25,14 @@ inline void forEachLane(const F& f) {
 /// The sum of kLanes values, pairwise, so that the order is the same on every processor.
 inline float sumLanes(const float* lanes) {
   static_assert(kLanes == 16);
-  float eight[8], four[4];
-  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
-  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+  // As vectors: several such sums in a row g++ would vectorise across, by way of permutations.
+  using Eight = float __attribute__((vector_size(32)));
+  using Four = float __attribute__((vector_size(16)));
+  Eight low, high;
+  std::memcpy(&low, lanes, sizeof low);
+  std::memcpy(&high, lanes + 8, sizeof high);
+  low += high;
+  const Four four = __builtin_shufflevector(low, low, 0, 1, 2, 3) + __builtin_shufflevector(low, low, 4, 5, 6, 7);
   return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
