@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "pdc/math/quadric_lanes.h"
@@ -22,18 +23,33 @@ inline void forEachLane(const F& f) {
   for (int lane = 0; lane < kLanes; ++lane) f(lane);
 }
 
-/// The sum of kLanes values, pairwise, so that the order is the same on every processor.
-inline float sumLanes(const float* lanes) {
-  static_assert(kLanes == 16);
-  // As vectors: several such sums in a row g++ would vectorise across, by way of permutations.
-  using Eight = float __attribute__((vector_size(32)));
-  using Four = float __attribute__((vector_size(16)));
+/// Folds kLanes values into one: lanes 8 apart first, so that the order is the same on every processor. As vectors,
+/// because g++ vectorises across several such folds in a row, by way of permutations. \param fold of two vectors.
+template <typename T, typename F>
+inline T foldLanes(const T* lanes, const F& fold) {
+  static_assert(kLanes == 16 && sizeof(T) == 4);
+  using Eight [[gnu::vector_size(32)]] = T;
+  using Four [[gnu::vector_size(16)]] = T;
   Eight low, high;
   std::memcpy(&low, lanes, sizeof low);
   std::memcpy(&high, lanes + 8, sizeof high);
-  low += high;
-  const Four four = __builtin_shufflevector(low, low, 0, 1, 2, 3) + __builtin_shufflevector(low, low, 4, 5, 6, 7);
-  return (four[0] + four[2]) + (four[1] + four[3]);
+  fold(low, high);
+  Four four = __builtin_shufflevector(low, low, 0, 1, 2, 3);
+  fold(four, __builtin_shufflevector(low, low, 4, 5, 6, 7));
+  fold(four, __builtin_shufflevector(four, four, 2, 3, 0, 1));
+  fold(four, __builtin_shufflevector(four, four, 1, 0, 3, 2));
+  return four[0];
+}
+/// The sum of kLanes values.
+inline float sumLanes(const float* lanes) {
+  return foldLanes(lanes, [](auto& a, const auto& b) { a += b; });
+}
+/// The largest of kLanes values, none of them NaN.
+inline float maxLanes(const float* lanes) {
+  return foldLanes(lanes, [](auto& a, const auto& b) { a = a > b ? a : b; });
+}
+inline std::int32_t minLanes(const std::int32_t* lanes) {
+  return foldLanes(lanes, [](auto& a, const auto& b) { a = a < b ? a : b; });
 }
 
 template <typename F>

@@ -24,8 +24,10 @@ using Lanes = std::array<float, kLanes>;
 
 /// What a row of voxels sees, a voxel per lane.
 struct VoxelRow {
-  alignas(64) std::array<std::array<Lanes, 2>, 3> slope;  ///< By axis; from below and from above.
-  std::array<Lanes, kOctants> missed;                     ///< How far an octant's face diagonals miss what it predicts.
+  /// Lanes by twice the axis, from below, and from above at one more.
+  alignas(64) std::array<float, 3 * 2 * kLanes> slope;
+  /// Lanes by octant: how far its face diagonals miss what it predicts.
+  std::array<float, kOctants * kLanes> missed;
   std::array<Lanes, 3> apart;                ///< By axis; infinite where the two slopes differ, 0 elsewhere.
   std::array<std::int32_t, kLanes> octants;  ///< Bit o: it has slopes of its own, and its diagonals agree with them.
 };
@@ -39,13 +41,14 @@ struct OctantList {
   [[nodiscard]] bool hasRoom() const { return count + kPerRow <= kCapacity; }
   /// Adds the octants of one voxel. \param z of it in the row.
   void add(const VoxelRow& row, const float* first, int rowStart, int z) {
+    const float* slopes = &row.slope[z];
     int n = count;
     for (auto bits = static_cast<unsigned>(row.octants[z]); bits != 0; bits &= bits - 1, ++n) {
       const int octant = std::countr_zero(bits);
-      slope[0][n] = row.slope[0][octant & 1][z];
-      slope[1][n] = row.slope[1][octant >> 1 & 1][z];
-      slope[2][n] = row.slope[2][octant >> 2][z];
-      missed[n] = row.missed[octant][z];
+      slope[0][n] = slopes[(octant & 1) * kLanes];
+      slope[1][n] = slopes[(octant & 2) * (kLanes / 2) + 2 * kLanes];
+      slope[2][n] = slopes[(octant & 4) * (kLanes / 4) + 4 * kLanes];
+      missed[n] = row.missed[octant * kLanes + z];
       value[n] = first[z];
       voxel[n] = rowStart + z;
     }
@@ -62,7 +65,7 @@ struct OctantList {
 void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) {
   forEachBlock(level, 3, [&](std::size_t axis) {
     const int step = kStep[axis];
-    float *below = row.slope[axis][0].data(), *above = row.slope[axis][1].data();
+    float *below = &row.slope[2 * axis * kLanes], *above = below + kLanes;
     float* apart = row.apart[axis].data();
     forEachLane([&](int lane) {
       const float* p = first + lane;
@@ -109,7 +112,7 @@ void findOctants(SimdLevel level, const float* first, float mostMissed, VoxelRow
       std::int32_t octants = 0;
       for (int o = 0; o < kOctants; ++o) {
         octants |= std::int32_t(missed[o] < mostMissed) << o;
-        row.missed[o][lane] = missed[o];
+        row.missed[o * kLanes + lane] = missed[o];
       }
       constexpr std::array<std::int32_t, 3> kAbove{0b10101010, 0b11001100, 0b11110000};
       for (int axis = 0; axis < 3; ++axis) {
