@@ -102,10 +102,26 @@ bool even(const SampledBlock& block, const SurfacePatch& patch) {
   return close;
 }
 
-/// The ends of a sign-changing edge of the patch at hand, from the centre of its cell, in world space, in voxels.
-struct EdgeEnds {
-  Vec3d inside, outside;
-  double t;  ///< Where it crosses zero, from inside.
+/// A sign-changing edge of the patch at hand.
+struct CrossedEdge {
+  int inside, outside;  ///< Corners of its cell, x + 2y + 4z.
+  double t;             ///< Where it crosses zero, from inside.
+};
+
+constexpr int kCorners = 8;
+using AtCorners = std::array<double, kCorners>;
+
+/// The corners of a cell from its centre, in world space, in voxels.
+struct CellCorners {
+  explicit CellCorners(const Mat3d& M) {
+    for (int i = 0; i < kCorners; ++i) {
+      const Vec3d p = M * Vec3d{(i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2) - 0.5};
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
+    }
+  }
+  alignas(64) AtCorners x, y, z;
 };
 
 class PlaneFinder {
@@ -115,6 +131,7 @@ class PlaneFinder {
       : mBlock(block),
         mModel(model),
         mInverse(inverse(model.M)),
+        mCorners(model.M),
         mPlanes(planes),
         mKinks(mWindow, creaseKink(model)),
         mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {
@@ -152,13 +169,13 @@ class PlaneFinder {
     mMassPoint = {};
     for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {
       const CellEdge e(std::countr_zero(bits), mCell);
-      Vec3d low{e.low[0] - mCell[0] - 0.5, e.low[1] - mCell[1] - 0.5, e.low[2] - mCell[2] - 0.5}, high = low, at = low;
-      high[e.axis] += 1;
+      const Coord from{e.low[0] - mCell[0], e.low[1] - mCell[1], e.low[2] - mCell[2]};
+      const int low = from[0] | from[1] << 1 | from[2] << 2, high = low | 1 << e.axis;
       const double t = mBlock.hermite.t[mBlock.edges(e.axis, e.low[0], e.low[1], e.low[2])];
+      Vec3d at{from[0] - 0.5, from[1] - 0.5, from[2] - 0.5};
       at[e.axis] += t;
       const bool up = mBlock.signs.inside(e.low[0], e.low[1], e.low[2]);
-      if (!up) std::swap(low, high);
-      mCrossing[mCrossingCount++] = {mModel.M * low, mModel.M * high, up ? t : 1 - t};
+      mCrossing[mCrossingCount++] = {up ? low : high, up ? high : low, up ? t : 1 - t};
       mMassPoint += mModel.M * at;
     }
     mMassPoint *= 1.0 / mCrossingCount;
@@ -193,6 +210,7 @@ class PlaneFinder {
     if (sides.count < 2) return;
     std::array<bool, SurfaceSides::kMax> crossed = crossedSides(sides);
     const auto keep = [&](int to, int i) {
+      if (to == i) return;
       std::swap(sides.side[to], sides.side[i]);
       std::swap(crossed[to], crossed[i]);
     };
@@ -217,14 +235,17 @@ class PlaneFinder {
     const int n = sides.count;
     std::array<std::array<bool, SurfaceSides::kMax>, SurfaceSides::kMax> convex{};
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        convex[i][j] = sides.side[i].value(sides.side[j].center) + sides.side[j].value(sides.side[i].center) < 0;
+      for (int j = 0; j < i; ++j)
+        convex[i][j] = convex[j][i] =
+            sides.side[i].value(sides.side[j].center) + sides.side[j].value(sides.side[i].center) < 0;
+    std::array<AtCorners, SurfaceSides::kMax> value;
+    for (int i = 0; i < n; ++i) valueAtCorners(sides.side[i], value[i]);
     std::array<bool, SurfaceSides::kMax> crossed{};
     for (int c = 0; c < mCrossingCount; ++c) {
-      const EdgeEnds& edge = mCrossing[c];
+      const CrossedEdge& edge = mCrossing[c];
       std::array<double, SurfaceSides::kMax> root{};
       for (int i = 0; i < n; ++i) {
-        const double v0 = sides.side[i].value(edge.inside), v1 = sides.side[i].value(edge.outside);
+        const double v0 = value[i][edge.inside], v1 = value[i][edge.outside];
         root[i] = v1 > v0 ? -v0 / (v1 - v0) : std::numeric_limits<double>::infinity();
       }
       const auto within = [](double t) { return t > -kSlack && t < 1 + kSlack; };
@@ -241,6 +262,16 @@ class PlaneFinder {
       if (!found) crossed[nearest] = true;
     }
     return crossed;
+  }
+
+  void valueAtCorners(const SurfaceSide& side, AtCorners& value) const {
+    forEachBlock(bestSimdLevel(), 1, [&](std::size_t) {
+      // Of its own, so that no store can change them: else the loop is not vectorised.
+      const SurfaceSide s = side;
+      AtCorners v;
+      for (int i = 0; i < kCorners; ++i) v[i] = s.value({mCorners.x[i], mCorners.y[i], mCorners.z[i]});
+      value = v;
+    });
   }
 
   void write(const SurfaceSides& sides, const Vec3d& y) {
@@ -263,6 +294,7 @@ class PlaneFinder {
   const SampledBlock& mBlock;
   const DistanceModel& mModel;
   Mat3d mInverse;
+  CellCorners mCorners;
   FeaturePlanes& mPlanes;
 
   DistanceWindow mWindow;
@@ -274,7 +306,7 @@ class PlaneFinder {
   int mKinkedCount = 0;
   std::uint32_t mPatch = 0;
   Coord mCell{};
-  std::array<EdgeEnds, 12> mCrossing;
+  std::array<CrossedEdge, 12> mCrossing;
   int mCrossingCount = 0;
   Vec3d mMassPoint{};
 };
