@@ -39,18 +39,20 @@ struct OctantList {
   using Column = std::array<float, kCapacity>;
 
   [[nodiscard]] bool hasRoom() const { return count + kPerRow <= kCapacity; }
-  /// Adds the octants of one voxel. \param z of it in the row.
-  void add(const VoxelRow& row, const float* first, int rowStart, int z) {
-    const float* slopes = &row.slope[z];
+  /// Adds the octants of eight voxels. \param z of the first in the row. \param octants a byte per voxel.
+  void add(const VoxelRow& row, const float* first, int rowStart, int z, std::uint64_t octants) {
+    const float *slopes = &row.slope[z], *misses = &row.missed[z];
+    first += z;
+    const int firstVoxel = rowStart + z;
     int n = count;
-    for (auto bits = static_cast<unsigned>(row.octants[z]); bits != 0; bits &= bits - 1, ++n) {
-      const int octant = std::countr_zero(bits);
-      slope[0][n] = slopes[(octant & 1) * kLanes];
-      slope[1][n] = slopes[(octant & 2) * (kLanes / 2) + 2 * kLanes];
-      slope[2][n] = slopes[(octant & 4) * (kLanes / 4) + 4 * kLanes];
-      missed[n] = row.missed[octant * kLanes + z];
-      value[n] = first[z];
-      voxel[n] = rowStart + z;
+    for (; octants != 0; octants &= octants - 1, ++n) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(octants)), v = bit / kOctants, octant = bit % kOctants;
+      slope[0][n] = slopes[v + octant % 2 * kLanes];
+      slope[1][n] = slopes[v + (2 + octant / 2 % 2) * kLanes];
+      slope[2][n] = slopes[v + (4 + octant / 4) * kLanes];
+      missed[n] = misses[v + octant * kLanes];
+      value[n] = first[v];
+      voxel[n] = firstVoxel + static_cast<int>(v);
     }
     count = n;
   }
@@ -60,6 +62,21 @@ struct OctantList {
   alignas(64) std::array<std::int32_t, kCapacity> voxel;  ///< 256x + 16y + z, each from -1.
   int count = 0;
 };
+
+constexpr std::uint64_t kEachByte = 0x0101010101010101;
+
+/// Byte k is full where bit k is set.
+std::uint64_t spread(unsigned bits) {
+  constexpr std::uint64_t kDiagonal = 0x8040201008040201;
+  return (((bits * kEachByte & kDiagonal) + 0x7F * kEachByte) >> 7 & kEachByte) * 0xFF;
+}
+
+/// Byte k is the number of bits that are set in the bytes below it.
+std::uint64_t countBelow(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x55 * kEachByte;
+  bits = (bits & 0x33 * kEachByte) + (bits >> 2 & 0x33 * kEachByte);
+  return ((bits + (bits >> 4)) & 0x0F * kEachByte) * kEachByte << 8;
+}
 
 /// \param first of the row's values in the window.
 void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) {
@@ -210,12 +227,18 @@ void VoxelPlanes::find() {
     const float* values = &mWindow.value[DistanceWindow::index(x - 1, y - 1, -1)];
     findSlopes(mLevel, values, mTolerance.kink, voxels);
     findOctants(mLevel, values, mTolerance.error, voxels);
-    auto& start = mStart[row];
-    for (int z = 0; z < kVoxels; ++z) {
-      start[z] = static_cast<std::uint16_t>(mCount + list.count);
-      if ((mNeeded[row] >> z & 1) != 0) list.add(voxels, values, x << 8 | y << 4, z);
+    static_assert(std::endian::native == std::endian::little);
+    std::array<std::uint8_t, kLanes> bytes;
+    for (int z = 0; z < kLanes; ++z) bytes[z] = static_cast<std::uint8_t>(voxels.octants[z]);
+    for (int half = 0; half < kLanes; half += 8) {
+      std::uint64_t octants;
+      std::memcpy(&octants, &bytes[half], sizeof octants);
+      octants &= spread(mNeeded[row] >> half & 0xFF);
+      const std::uint64_t below = countBelow(octants);
+      for (int z = half; z < std::min(half + 8, kVoxels + 1); ++z)
+        mStart[row][z] = static_cast<std::uint16_t>(mCount + list.count + int(below >> 8 * (z - half) & 0xFF));
+      list.add(voxels, values, x << 8 | y << 4, half, octants);
     }
-    start[kVoxels] = static_cast<std::uint16_t>(mCount + list.count);
   }
   sample(kVoxels * kVoxels);
   mFound = true;
@@ -223,32 +246,40 @@ void VoxelPlanes::find() {
 
 void VoxelPlanes::dropWeightless(int row) {
   constexpr int kMost = 3;
-  auto& start = mStart[row];
+  RowStarts& start = mStart[row];
+  for (int v = 0; v < kVoxels; ++v)
+    if (start[v + 1] - start[v] > kMost) keepHeaviest(kMost, start[v], start[v + 1]);
   const float* weight = mColumn[SurfaceSamples::kWeight].data();
-  int kept = start[0], begin = kept;
-  for (int v = 0; v < kVoxels; ++v) {
-    const int end = start[v + 1];
-    start[v] = static_cast<std::uint16_t>(kept);
-    if (end - begin > kMost) keepHeaviest(kMost, begin, end);
-    for (int i = begin; i < end; ++i) {
-      if (!(weight[i] > 0)) continue;
-      if (kept != i)
-        for (auto& column : mColumn) column[kept] = column[i];
-      ++kept;
-    }
-    begin = end;
+  const int end = start[kVoxels];
+  int kept = start[0];
+  while (kept < end && weight[kept] > 0) ++kept;
+  if (kept == end) return;
+  // Without branches, which no processor would foresee.
+  std::array<std::uint16_t, kVoxels * kOctants + 1> place;
+  const int begin = kept;
+  for (int i = begin; i < end; ++i) {
+    place[i - begin] = static_cast<std::uint16_t>(kept);
+    for (auto& column : mColumn) column[kept] = column[i];
+    kept += weight[i] > 0 ? 1 : 0;
   }
-  start[kVoxels] = static_cast<std::uint16_t>(kept);
+  place[end - begin] = static_cast<std::uint16_t>(kept);
+  for (std::uint16_t& s : start) s = s < begin ? s : place[s - begin];
 }
 
 void VoxelPlanes::keepHeaviest(int most, int begin, int end) {
+  constexpr float kNone = std::numeric_limits<float>::infinity();
   float *weight = mColumn[SurfaceSamples::kWeight].data(), *trust = mColumn[SurfaceSamples::kTrust].data();
-  const auto counting = [&](int i) { return weight[i] > 0 ? weight[i] : std::numeric_limits<float>::infinity(); };
-  auto left = std::count_if(weight + begin, weight + end, [](float w) { return w > 0; });
+  int left = 0;
+  for (int i = begin; i < end; ++i) left += weight[i] > 0 ? 1 : 0;
   for (; left > most; --left) {
     int lightest = begin;
-    for (int i = begin + 1; i < end; ++i)
-      if (counting(i) < counting(lightest)) lightest = i;
+    float least = kNone;
+    for (int i = begin; i < end; ++i) {
+      const float w = weight[i] > 0 ? weight[i] : kNone;
+      const bool lighter = w < least;
+      lightest = lighter ? i : lightest;
+      least = lighter ? w : least;
+    }
     weight[lightest] = trust[lightest] = 0;
   }
 }
