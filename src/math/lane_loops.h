@@ -12,15 +12,16 @@
 /// scalars; `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
 namespace pdc::detail {
 
-/// Calls f(lane) for every lane. Lanes do not see each other: f may read and write any block at its own lane only.
-template <typename F>
+/// Calls f(lane) for every lane, or the first so many. Lanes do not see each other: f may read and write any block at
+/// its own lane only.
+template <int count = kLanes, typename F>
 inline void forEachLane(const F& f) {
 #if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #else
 #pragma GCC ivdep
 #endif
-  for (int lane = 0; lane < kLanes; ++lane) f(lane);
+  for (int lane = 0; lane < count; ++lane) f(lane);
 }
 
 /// Folds kLanes values into one: lanes 8 apart first, so that the order is the same on every processor. As vectors,

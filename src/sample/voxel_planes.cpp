@@ -32,6 +32,8 @@ struct VoxelRow {
   std::array<std::int32_t, kLanes> octants;  ///< Bit o: it has slopes of its own, and its diagonals agree with them.
 };
 
+}  // namespace
+
 /// What is to be looked at, in the voxels of one row after the other: an octant each, whose slopes and the like are a
 /// lane.
 struct OctantList {
@@ -40,28 +42,32 @@ struct OctantList {
 
   [[nodiscard]] bool hasRoom() const { return count + kPerRow <= kCapacity; }
   /// Adds the octants of eight voxels. \param z of the first in the row. \param octants a byte per voxel.
-  void add(const VoxelRow& row, const float* first, int rowStart, int z, std::uint64_t octants) {
-    const float *slopes = &row.slope[z], *misses = &row.missed[z];
-    first += z;
-    const int firstVoxel = rowStart + z;
-    int n = count;
-    for (; octants != 0; octants &= octants - 1, ++n) {
-      const auto bit = static_cast<unsigned>(std::countr_zero(octants)), v = bit / kOctants, octant = bit % kOctants;
-      slope[0][n] = slopes[v + octant % 2 * kLanes];
-      slope[1][n] = slopes[v + (2 + octant / 2 % 2) * kLanes];
-      slope[2][n] = slopes[v + (4 + octant / 4) * kLanes];
-      missed[n] = misses[v + octant * kLanes];
-      value[n] = first[v];
-      voxel[n] = firstVoxel + static_cast<int>(v);
-    }
-    count = n;
-  }
+  void add(const VoxelRow& row, const float* first, int rowStart, int z, std::uint64_t octants);
 
   alignas(64) std::array<Column, 3> slope;
   alignas(64) Column missed, value;
   alignas(64) std::array<std::int32_t, kCapacity> voxel;  ///< 256x + 16y + z, each from -1.
   int count = 0;
 };
+
+inline void OctantList::add(const VoxelRow& row, const float* first, int rowStart, int z, std::uint64_t octants) {
+  const float *slopes = &row.slope[z], *misses = &row.missed[z];
+  first += z;
+  const int firstVoxel = rowStart + z;
+  int n = count;
+  for (; octants != 0; octants &= octants - 1, ++n) {
+    const auto bit = static_cast<unsigned>(std::countr_zero(octants)), v = bit / kOctants, octant = bit % kOctants;
+    slope[0][n] = slopes[v + octant % 2 * kLanes];
+    slope[1][n] = slopes[v + (2 + octant / 2 % 2) * kLanes];
+    slope[2][n] = slopes[v + (4 + octant / 4) * kLanes];
+    missed[n] = misses[v + octant * kLanes];
+    value[n] = first[v];
+    voxel[n] = firstVoxel + static_cast<int>(v);
+  }
+  count = n;
+}
+
+namespace {
 
 constexpr std::uint64_t kEachByte = 0x0101010101010101;
 
@@ -79,12 +85,13 @@ std::uint64_t countBelow(std::uint64_t bits) {
 }
 
 /// \param first of the row's values in the window.
+template <int lanes>
 void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) {
   forEachBlock(level, 3, [&](std::size_t axis) {
     const int step = kStep[axis];
     float *below = &row.slope[2 * axis * kLanes], *above = below + kLanes;
     float* apart = row.apart[axis].data();
-    forEachLane([&](int lane) {
+    forEachLane<lanes>([&](int lane) {
       const float* p = first + lane;
       const OneSidedSlopes s(p, step);
       // Where both agree, the central difference is the most exact.
@@ -99,9 +106,10 @@ void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) 
 
 /// Which octants of each voxel have slopes of their own and face diagonals that agree with them. One loop of straight
 /// code, because the compiler unrolls shorter ones before it can vectorise them.
+template <int lanes>
 void findOctants(SimdLevel level, const float* first, float mostMissed, VoxelRow& row) {
   forEachBlock(level, 1, [&](std::size_t) {
-    forEachLane([&](int lane) {
+    forEachLane<lanes>([&](int lane) {
       const float* p = first + lane;
       // How far the diagonals of the quadrants of each two axes, this one and the next, miss what their sides predict.
       float quadrant[3][4];
@@ -209,7 +217,6 @@ inline void weighByFoot(const Vec3f& center, const Mat3f& M, SurfaceSamples& sam
 
 void VoxelPlanes::find() {
   OctantList list;
-  VoxelRow voxels;
   int first = 0;  // Row whose octants have no samples yet.
   const auto sample = [&](int end) {
     std::array<float*, SurfaceSamples::kColumns> to;
@@ -223,25 +230,40 @@ void VoxelPlanes::find() {
   for (int row = 0; row < kVoxels * kVoxels; ++row) {
     if (mNeeded[row] == 0) continue;
     if (!list.hasRoom()) sample(row);
-    const int x = row / kVoxels, y = row % kVoxels;
-    const float* values = &mWindow.value[DistanceWindow::index(x - 1, y - 1, -1)];
-    findSlopes(mLevel, values, mTolerance.kink, voxels);
-    findOctants(mLevel, values, mTolerance.error, voxels);
-    static_assert(std::endian::native == std::endian::little);
-    std::array<std::uint8_t, kLanes> bytes;
-    for (int z = 0; z < kLanes; ++z) bytes[z] = static_cast<std::uint8_t>(voxels.octants[z]);
-    for (int half = 0; half < kLanes; half += 8) {
-      std::uint64_t octants;
-      std::memcpy(&octants, &bytes[half], sizeof octants);
-      octants &= spread(mNeeded[row] >> half & 0xFF);
-      const std::uint64_t below = countBelow(octants);
-      for (int z = half; z < std::min(half + 8, kVoxels + 1); ++z)
-        mStart[row][z] = static_cast<std::uint16_t>(mCount + list.count + int(below >> 8 * (z - half) & 0xFF));
-      list.add(voxels, values, x << 8 | y << 4, half, octants);
-    }
+    addRow(row, list);
   }
   sample(kVoxels * kVoxels);
   mFound = true;
+}
+
+void VoxelPlanes::addRow(int row, OctantList& list) {
+  constexpr int kHalf = kLanes / 2;
+  // Voxels that are needed mostly fit into half the lanes, from the first of them on.
+  const unsigned needed = mNeeded[row];
+  const int low = std::countr_zero(needed), x = row / kVoxels, y = row % kVoxels;
+  const bool fit = needed >> low < 1U << kHalf;
+  const float* values = &mWindow.value[DistanceWindow::index(x - 1, y - 1, low - 1)];
+  VoxelRow voxels;
+  if (fit) {
+    findSlopes<kHalf>(mLevel, values, mTolerance.kink, voxels);
+    findOctants<kHalf>(mLevel, values, mTolerance.error, voxels);
+  } else {
+    findSlopes<kLanes>(mLevel, values, mTolerance.kink, voxels);
+    findOctants<kLanes>(mLevel, values, mTolerance.error, voxels);
+  }
+  static_assert(std::endian::native == std::endian::little);
+  RowStarts& start = mStart[row];
+  std::fill_n(start.begin(), low, static_cast<std::uint16_t>(mCount + list.count));
+  for (int z = 0; z < (fit ? kHalf : kLanes); z += kHalf) {
+    std::uint64_t octants = 0;
+    for (int k = 0; k < kHalf; ++k) octants |= static_cast<std::uint64_t>(voxels.octants[z + k]) << 8 * k;
+    octants &= spread(needed >> (low + z) & 0xFF);
+    const std::uint64_t below = countBelow(octants);
+    for (int k = 0; k < kHalf; ++k)
+      start[low + z + k] = static_cast<std::uint16_t>(mCount + list.count + int(below >> 8 * k & 0xFF));
+    list.add(voxels, values, x << 8 | y << 4 | low, z, octants);
+  }
+  std::fill(start.begin() + low + (fit ? kHalf : kLanes), start.end(), static_cast<std::uint16_t>(mCount + list.count));
 }
 
 void VoxelPlanes::dropWeightless(int row) {
@@ -263,7 +285,8 @@ void VoxelPlanes::dropWeightless(int row) {
     kept += weight[i] > 0 ? 1 : 0;
   }
   place[end - begin] = static_cast<std::uint16_t>(kept);
-  for (std::uint16_t& s : start) s = s < begin ? s : place[s - begin];
+  for (int v = 0; v <= kVoxels; ++v)
+    if (start[v] >= begin) start[v] = place[start[v] - begin];
 }
 
 void VoxelPlanes::keepHeaviest(int most, int begin, int end) {

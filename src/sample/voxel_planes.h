@@ -41,6 +41,8 @@ struct SurfaceSamples {
   int count = 0;  ///< The rest of the last block of lanes has no weight.
 };
 
+struct OctantList;
+
 /// The samples of a block's voxels, found when the first are asked for.
 ///
 /// Along each axis a voxel has slopes from both sides (see OneSidedSlopes), so that one sees one side of a crease only.
@@ -63,11 +65,13 @@ class VoxelPlanes {
  private:
   static constexpr int kVoxels = kBlockPoints + 2;  ///< -1 to 9 on each axis.
   static constexpr int kCapacity = kVoxels * kVoxels * kVoxels * SurfaceSamples::kOctants + kLanes;
-  using RowStarts = std::array<std::uint16_t, kVoxels + 1>;  ///< First sample of each voxel; end of the last.
+  /// First sample of each voxel, end of the last, and room for what a row's lanes write beyond.
+  using RowStarts = std::array<std::uint16_t, kVoxels + kLanes>;
   using Columns = std::array<std::array<float, kCapacity>, SurfaceSamples::kColumns>;
 
   /// Of all voxels that are needed.
   void find();
+  void addRow(int row, OctantList& list);
   /// Of a voxel's samples only three count: with noise more octants agree with themselves by chance.
   void keepHeaviest(int most, int begin, int end);
   void dropWeightless(int row);
