@@ -49,27 +49,43 @@ double normalNoise(double noise) { return kNormalNoise * noise; }
 
 Coord cellOf(const SurfacePatch& patch) { return {patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7}; }
 
-/// An edge of a cell, by its number in SurfacePatch.
+/// An edge of a cell.
 struct CellEdge {
-  CellEdge(int number, const Coord& cell) : axis(number >> 2), low(cell) {
-    low[(axis + 1) % 3] += number & 1;
-    low[(axis + 2) % 3] += number >> 1 & 1;
-  }
-  int axis;
-  Coord low;
+  int axis, low, high;  ///< Its ends among the cell's corners, x + 2y + 4z.
+  int slot;             ///< In EdgeIndex, from that of the cell's lowest corner along x.
 };
 
-/// EdgeIndex slots of a cell's edges, by their number in SurfacePatch, from that of its lowest corner along x.
-constexpr auto kEdgeSlot = [] {
-  std::array<int, 12> slot{};
+/// By number in SurfacePatch.
+constexpr auto kCellEdge = [] {
+  std::array<CellEdge, 12> edges{};
   for (int e = 0; e < 12; ++e) {
+    const int axis = e >> 2;
     std::array<int, 3> low{};
-    low[((e >> 2) + 1) % 3] = e & 1;
-    low[((e >> 2) + 2) % 3] = e >> 1 & 1;
-    slot[e] = EdgeIndex::slot(e >> 2, low[0], low[1], low[2]);
+    low[(axis + 1) % 3] = e & 1;
+    low[(axis + 2) % 3] = e >> 1 & 1;
+    const int corner = low[0] + 2 * low[1] + 4 * low[2];
+    edges[e] = {axis, corner, corner | 1 << axis, EdgeIndex::slot(axis, low[0], low[1], low[2])};
   }
-  return slot;
+  return edges;
 }();
+
+/// A corner of a cell, from its centre, in lattice units.
+Vec3d cornerPlace(int corner) { return {(corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5}; }
+
+/// Which corners of a cell are inside, a bit each.
+unsigned cornersInside(const BlockSigns& signs, const Coord& cell) {
+  unsigned inside = 0;
+  for (int c = 0; c < 4; ++c) {
+    const unsigned row = signs.row[kBlockPoints * (cell[0] + (c & 1)) + cell[1] + (c >> 1)] >> cell[2];
+    inside |= (row & 1) << c | (row >> 1 & 1) << (c + 4);
+  }
+  return inside;
+}
+
+/// EdgeIndex's numbers from the lowest edge of a cell on.
+const std::uint16_t* numbersOf(const SampledBlock& block, const SurfacePatch& patch) {
+  return block.edges.numbers() + EdgeIndex::slot(0, patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7);
+}
 
 /// Whether the normals of all of a block's crossings agree, as most blocks' do. Not all that do are found.
 bool allEven(const SampledBlock& block) {
@@ -89,11 +105,10 @@ bool allEven(const SampledBlock& block) {
 }
 
 bool even(const SampledBlock& block, const SurfacePatch& patch) {
-  const std::uint16_t* number =
-      block.edges.numbers() + EdgeIndex::slot(0, patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7);
+  const std::uint16_t* number = numbersOf(block, patch);
   const HermiteBlock& h = block.hermite;
   const auto normal = [&](unsigned bits) {
-    const int i = number[kEdgeSlot[std::countr_zero(bits)]];
+    const int i = number[kCellEdge[std::countr_zero(bits)].slot];
     return Vec3f{h.nx[i], h.ny[i], h.nz[i]};
   };
   const Vec3f first = normal(patch.edges);
@@ -115,7 +130,7 @@ using AtCorners = std::array<double, kCorners>;
 struct CellCorners {
   explicit CellCorners(const Mat3d& M) {
     for (int i = 0; i < kCorners; ++i) {
-      const Vec3d p = M * Vec3d{(i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2) - 0.5};
+      const Vec3d p = M * cornerPlace(i);
       x[i] = p.x;
       y[i] = p.y;
       z[i] = p.z;
@@ -165,17 +180,17 @@ class PlaneFinder {
   }
 
   void gatherCrossings(const SurfacePatch& patch) {
+    const std::uint16_t* number = numbersOf(mBlock, patch);
+    const unsigned inside = cornersInside(mBlock.signs, mCell);
     mCrossingCount = 0;
     mMassPoint = {};
     for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {
-      const CellEdge e(std::countr_zero(bits), mCell);
-      const Coord from{e.low[0] - mCell[0], e.low[1] - mCell[1], e.low[2] - mCell[2]};
-      const int low = from[0] | from[1] << 1 | from[2] << 2, high = low | 1 << e.axis;
-      const double t = mBlock.hermite.t[mBlock.edges(e.axis, e.low[0], e.low[1], e.low[2])];
-      Vec3d at{from[0] - 0.5, from[1] - 0.5, from[2] - 0.5};
+      const CellEdge& e = kCellEdge[std::countr_zero(bits)];
+      const double t = mBlock.hermite.t[number[e.slot]];
+      const bool up = (inside >> e.low & 1) != 0;
+      mCrossing[mCrossingCount++] = {up ? e.low : e.high, up ? e.high : e.low, up ? t : 1 - t};
+      Vec3d at = cornerPlace(e.low);
       at[e.axis] += t;
-      const bool up = mBlock.signs.inside(e.low[0], e.low[1], e.low[2]);
-      mCrossing[mCrossingCount++] = {up ? low : high, up ? high : low, up ? t : 1 - t};
       mMassPoint += mModel.M * at;
     }
     mMassPoint *= 1.0 / mCrossingCount;
