@@ -139,6 +139,24 @@ struct CellCorners {
   alignas(64) AtCorners x, y, z;
 };
 
+/// Some of a block's patches, by ascending index.
+struct UnevenPatches {
+  static constexpr int kMost = kBlockSize * kBlockSize * kBlockSize * 4;
+  void add(std::size_t i) { index[count++] = static_cast<std::uint16_t>(i); }
+  [[nodiscard]] std::span<const std::uint16_t> all() const { return {index.data(), static_cast<std::size_t>(count)}; }
+
+  std::array<std::uint16_t, kMost> index;
+  int count = 0;
+};
+
+/// Adds the rows of a window that the voxels about a cell look at (see VoxelPlanes): those two farther along each axis,
+/// and the diagonal neighbours.
+void needRowsAbout(const Coord& cell, DistanceWindow::Rows& rows) {
+  constexpr std::array<unsigned, 8> kBits{0x3C, 0x7E, 0xFF, 0xFF, 0xFF, 0xFF, 0x7E, 0x3C};
+  static_assert(DistanceWindow::kReach == 3);
+  for (int x = 0; x < 8; ++x) rows[cell[0] + x] |= static_cast<std::uint16_t>(kBits[x] << cell[1]);
+}
+
 class PlaneFinder {
  public:
   PlaneFinder(const SampledBlock& block, const DistanceModel& model, const std::function<void(DistanceWindow&)>& read,
@@ -147,23 +165,25 @@ class PlaneFinder {
         mModel(model),
         mInverse(inverse(model.M)),
         mCorners(model.M),
+        mRead(read),
         mPlanes(planes),
         mKinks(mWindow, creaseKink(model)),
-        mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {
-    read(mWindow);
-  }
+        mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {}
 
-  /// Notes patch i of the block if there are kinks at its cell.
-  void expect(std::size_t i) {
-    const Coord cell = cellOf(mBlock.patches[i]);
-    if (mKinks.noneAt(cell)) return;
-    mVoxels.expect(cell);
-    mKinked[mKinkedCount++] = static_cast<std::uint16_t>(i);
-  }
-
-  /// Finds the planes of the patches noted.
-  void run() {
-    for (int i = 0; i < mKinkedCount; ++i) run(mKinked[i]);
+  /// Finds the planes of those among some patches at whose cells there are kinks.
+  void run(UnevenPatches& patches) {
+    mWindow.rows = {};
+    for (const std::uint16_t i : patches.all()) needRowsAbout(cellOf(mBlock.patches[i]), mWindow.rows);
+    mRead(mWindow);
+    int kinked = 0;
+    for (const std::uint16_t i : patches.all()) {
+      const Coord cell = cellOf(mBlock.patches[i]);
+      if (mKinks.noneAt(cell)) continue;
+      mVoxels.expect(cell);
+      patches.index[kinked++] = i;
+    }
+    patches.count = kinked;
+    for (const std::uint16_t i : patches.all()) run(i);
   }
 
  private:
@@ -310,15 +330,13 @@ class PlaneFinder {
   const DistanceModel& mModel;
   Mat3d mInverse;
   CellCorners mCorners;
+  const std::function<void(DistanceWindow&)>& mRead;
   FeaturePlanes& mPlanes;
 
   DistanceWindow mWindow;
   Kinks mKinks;
   VoxelPlanes mVoxels;
   SurfaceSamples mSamples;
-  static constexpr int kMostPatches = kBlockSize * kBlockSize * kBlockSize * 4;
-  std::array<std::uint16_t, kMostPatches> mKinked;  ///< Patches at whose cells there are kinks.
-  int mKinkedCount = 0;
   std::uint32_t mPatch = 0;
   Coord mCell{};
   std::array<CrossedEdge, 12> mCrossing;
@@ -331,15 +349,10 @@ class PlaneFinder {
 void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
                        const std::function<void(DistanceWindow&)>& read, FeaturePlanes& planes) {
   if (block.patches.empty() || allEven(block)) return;
-  const auto isUneven = [&](std::size_t i) { return !even(block, block.patches[i]); };
-  std::size_t i = 0;
-  while (i < block.patches.size() && !isUneven(i)) ++i;
-  if (i == block.patches.size()) return;
-  PlaneFinder finder(block, model, read, planes);
-  finder.expect(i);
-  for (++i; i < block.patches.size(); ++i)
-    if (isUneven(i)) finder.expect(i);
-  finder.run();
+  UnevenPatches uneven;
+  for (std::size_t i = 0; i < block.patches.size(); ++i)
+    if (!even(block, block.patches[i])) uneven.add(i);
+  if (uneven.count != 0) PlaneFinder(block, model, read, planes).run(uneven);
 }
 
 }  // namespace pdc::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "pdc/math/quadric_lanes.h"
 #include "pdc/math/sym_mat3.h"
@@ -20,6 +21,14 @@ struct DistanceWindow {
     return (kPoints * (x + kReach) + y + kReach) * kLanes + z + kBelow;
   }
 
+  using Rows = std::array<std::uint16_t, kPoints>;
+  static constexpr Rows allRows() {
+    Rows rows{};
+    rows.fill((1U << kPoints) - 1);
+    return rows;
+  }
+
+  Rows rows = allRows();  ///< Along z, that are to be read: by x + kReach, bit y + kReach.
   alignas(64) std::array<float, kPoints * kPoints * kLanes> value;
 };
 

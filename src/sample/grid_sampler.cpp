@@ -146,6 +146,7 @@ class TypedGridSampler final : public GridSampler {
         for (int pz = 0; pz < 3; ++pz) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
         for (int x = kFirst[px]; x < kEnd[px]; ++x)
           for (int y = kFirst[py]; y < kEnd[py]; ++y) {
+            if ((window.rows[x + kReach] >> (y + kReach) & 1) == 0) continue;
             float* to = &window.value[DistanceWindow::index(x, y, 0)];
             reader.template copy<kBelow>(rows[0].at(x, y) + (kBlockSize - kBelow), to - kBelow);
             reader.template copy<kBlockSize>(rows[1].at(x, y), to);
