@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "pdc/math/quadric_lanes.h"
 #include "pdc/math/simd_level.h"
@@ -10,24 +12,45 @@
 /// scalars; `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
 namespace pdc::detail {
 
-/// Calls f(lane) for every lane. Lanes do not see each other: f may read and write any block at its own lane only.
-template <typename F>
+/// Calls f(lane) for every lane, or the first so many. Lanes do not see each other: f may read and write any block at
+/// its own lane only.
+template <int count = kLanes, typename F>
 inline void forEachLane(const F& f) {
 #if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #else
 #pragma GCC ivdep
 #endif
-  for (int lane = 0; lane < kLanes; ++lane) f(lane);
+  for (int lane = 0; lane < count; ++lane) f(lane);
 }
 
-/// The sum of kLanes values, pairwise, so that the order is the same on every processor.
+/// Folds kLanes values into one: lanes 8 apart first, so that the order is the same on every processor. As vectors,
+/// because g++ vectorises across several such folds in a row, by way of permutations. \param fold of two vectors.
+template <typename T, typename F>
+inline T foldLanes(const T* lanes, const F& fold) {
+  static_assert(kLanes == 16 && sizeof(T) == 4);
+  using Eight [[gnu::vector_size(32)]] = T;
+  using Four [[gnu::vector_size(16)]] = T;
+  Eight low, high;
+  std::memcpy(&low, lanes, sizeof low);
+  std::memcpy(&high, lanes + 8, sizeof high);
+  fold(low, high);
+  Four four = __builtin_shufflevector(low, low, 0, 1, 2, 3);
+  fold(four, __builtin_shufflevector(low, low, 4, 5, 6, 7));
+  fold(four, __builtin_shufflevector(four, four, 2, 3, 0, 1));
+  fold(four, __builtin_shufflevector(four, four, 1, 0, 3, 2));
+  return four[0];
+}
+/// The sum of kLanes values.
 inline float sumLanes(const float* lanes) {
-  static_assert(kLanes == 16);
-  float eight[8], four[4];
-  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
-  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
-  return (four[0] + four[2]) + (four[1] + four[3]);
+  return foldLanes(lanes, [](auto& a, const auto& b) { a += b; });
+}
+/// The largest of kLanes values, none of them NaN.
+inline float maxLanes(const float* lanes) {
+  return foldLanes(lanes, [](auto& a, const auto& b) { a = a > b ? a : b; });
+}
+inline std::int32_t minLanes(const std::int32_t* lanes) {
+  return foldLanes(lanes, [](auto& a, const auto& b) { a = a < b ? a : b; });
 }
 
 template <typename F>

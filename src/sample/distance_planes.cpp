@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/lane_loops.h"
 #include "sample/kinks.h"
 #include "sample/surface_sides.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 /// Normals within 2.5° of each other leave no room for a crease. With 5° edges were 4 to 14 % less exact.
 constexpr float kEvenCos = 0.999F;
+/// Those within 1.255° of one are within 2.51° of each other.
+constexpr float kHalfEvenCos = 0.99976F;
 
 PlaneTolerance tolerance(double noise) {
   const auto n = static_cast<float>(noise);
@@ -46,34 +49,113 @@ double normalNoise(double noise) { return kNormalNoise * noise; }
 
 Coord cellOf(const SurfacePatch& patch) { return {patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7}; }
 
-/// An edge of a cell, by its number in SurfacePatch.
+/// An edge of a cell.
 struct CellEdge {
-  CellEdge(int number, const Coord& cell) : axis(number >> 2), low(cell) {
-    low[(axis + 1) % 3] += number & 1;
-    low[(axis + 2) % 3] += number >> 1 & 1;
-  }
-  int axis;
-  Coord low;
+  int axis, low, high;  ///< Its ends among the cell's corners, x + 2y + 4z.
+  int slot;             ///< In EdgeIndex, from that of the cell's lowest corner along x.
 };
 
-bool even(const SampledBlock& block, const SurfacePatch& patch) {
-  const Coord cell = cellOf(patch);
-  Vec3f first{};
-  for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {
-    const CellEdge e(std::countr_zero(bits), cell);
-    const int i = block.edges(e.axis, e.low[0], e.low[1], e.low[2]);
-    const Vec3f n{block.hermite.nx[i], block.hermite.ny[i], block.hermite.nz[i]};
-    if (bits == patch.edges) first = n;
-    if (!(dot(first, n) > kEvenCos)) return false;
+/// By number in SurfacePatch.
+constexpr auto kCellEdge = [] {
+  std::array<CellEdge, 12> edges{};
+  for (int e = 0; e < 12; ++e) {
+    const int axis = e >> 2;
+    std::array<int, 3> low{};
+    low[(axis + 1) % 3] = e & 1;
+    low[(axis + 2) % 3] = e >> 1 & 1;
+    const int corner = low[0] + 2 * low[1] + 4 * low[2];
+    edges[e] = {axis, corner, corner | 1 << axis, EdgeIndex::slot(axis, low[0], low[1], low[2])};
   }
-  return true;
+  return edges;
+}();
+
+/// A corner of a cell, from its centre, in lattice units.
+Vec3d cornerPlace(int corner) { return {(corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5}; }
+
+/// Which corners of a cell are inside, a bit each.
+unsigned cornersInside(const BlockSigns& signs, const Coord& cell) {
+  unsigned inside = 0;
+  for (int c = 0; c < 4; ++c) {
+    const unsigned row = signs.row[kBlockPoints * (cell[0] + (c & 1)) + cell[1] + (c >> 1)] >> cell[2];
+    inside |= (row & 1) << c | (row >> 1 & 1) << (c + 4);
+  }
+  return inside;
 }
 
-/// The ends of a sign-changing edge of the patch at hand, from the centre of its cell, in world space, in voxels.
-struct EdgeEnds {
-  Vec3d inside, outside;
-  double t;  ///< Where it crosses zero, from inside.
+/// EdgeIndex's numbers from the lowest edge of a cell on.
+const std::uint16_t* numbersOf(const SampledBlock& block, const SurfacePatch& patch) {
+  return block.edges.numbers() + EdgeIndex::slot(0, patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7);
+}
+
+/// Whether the normals of all of a block's crossings agree, as most blocks' do. Not all that do are found.
+bool allEven(const SampledBlock& block) {
+  const HermiteBlock& h = block.hermite;
+  const int count = block.edges.size();
+  alignas(64) std::array<std::int32_t, kLanes> apart{};
+  forEachBlock(bestSimdLevel(), blockCount(static_cast<std::size_t>(count)), [&](std::size_t i) {
+    const Vec3f first{h.nx[0], h.ny[0], h.nz[0]};
+    const float *nx = &h.nx[i * kLanes], *ny = &h.ny[i * kLanes], *nz = &h.nz[i * kLanes];
+    const int left = count - static_cast<int>(i) * kLanes;
+    forEachLane([&](int lane) {
+      const bool near = first.x * nx[lane] + first.y * ny[lane] + first.z * nz[lane] > kHalfEvenCos;
+      apart[lane] |= std::int32_t(!near) & std::int32_t(lane < left);
+    });
+  });
+  return std::none_of(apart.begin(), apart.end(), [](std::int32_t a) { return a != 0; });
+}
+
+bool even(const SampledBlock& block, const SurfacePatch& patch) {
+  const std::uint16_t* number = numbersOf(block, patch);
+  const HermiteBlock& h = block.hermite;
+  const auto normal = [&](unsigned bits) {
+    const int i = number[kCellEdge[std::countr_zero(bits)].slot];
+    return Vec3f{h.nx[i], h.ny[i], h.nz[i]};
+  };
+  const Vec3f first = normal(patch.edges);
+  bool close = true;
+  for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) close = close && dot(first, normal(bits)) > kEvenCos;
+  return close;
+}
+
+/// A sign-changing edge of the patch at hand.
+struct CrossedEdge {
+  int inside, outside;  ///< Corners of its cell, x + 2y + 4z.
+  double t;             ///< Where it crosses zero, from inside.
 };
+
+constexpr int kCorners = 8;
+using AtCorners = std::array<double, kCorners>;
+
+/// The corners of a cell from its centre, in world space, in voxels.
+struct CellCorners {
+  explicit CellCorners(const Mat3d& M) {
+    for (int i = 0; i < kCorners; ++i) {
+      const Vec3d p = M * cornerPlace(i);
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
+    }
+  }
+  alignas(64) AtCorners x, y, z;
+};
+
+/// Some of a block's patches, by ascending index.
+struct UnevenPatches {
+  static constexpr int kMost = kBlockSize * kBlockSize * kBlockSize * 4;
+  void add(std::size_t i) { index[count++] = static_cast<std::uint16_t>(i); }
+  [[nodiscard]] std::span<const std::uint16_t> all() const { return {index.data(), static_cast<std::size_t>(count)}; }
+
+  std::array<std::uint16_t, kMost> index;
+  int count = 0;
+};
+
+/// Adds the rows of a window that the voxels about a cell look at (see VoxelPlanes): those two farther along each axis,
+/// and the diagonal neighbours.
+void needRowsAbout(const Coord& cell, DistanceWindow::Rows& rows) {
+  constexpr std::array<unsigned, 8> kBits{0x3C, 0x7E, 0xFF, 0xFF, 0xFF, 0xFF, 0x7E, 0x3C};
+  static_assert(DistanceWindow::kReach == 3);
+  for (int x = 0; x < 8; ++x) rows[cell[0] + x] |= static_cast<std::uint16_t>(kBits[x] << cell[1]);
+}
 
 class PlaneFinder {
  public:
@@ -82,23 +164,26 @@ class PlaneFinder {
       : mBlock(block),
         mModel(model),
         mInverse(inverse(model.M)),
+        mCorners(model.M),
+        mRead(read),
         mPlanes(planes),
         mKinks(mWindow, creaseKink(model)),
-        mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {
-    read(mWindow);
-  }
+        mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {}
 
-  /// Notes patch i of the block if there are kinks at its cell.
-  void expect(std::size_t i) {
-    const Coord cell = cellOf(mBlock.patches[i]);
-    if (mKinks.noneAt(cell)) return;
-    mVoxels.expect(cell);
-    mKinked[mKinkedCount++] = static_cast<std::uint16_t>(i);
-  }
-
-  /// Finds the planes of the patches noted.
-  void run() {
-    for (int i = 0; i < mKinkedCount; ++i) run(mKinked[i]);
+  /// Finds the planes of those among some patches at whose cells there are kinks.
+  void run(UnevenPatches& patches) {
+    mWindow.rows = {};
+    for (const std::uint16_t i : patches.all()) needRowsAbout(cellOf(mBlock.patches[i]), mWindow.rows);
+    mRead(mWindow);
+    int kinked = 0;
+    for (const std::uint16_t i : patches.all()) {
+      const Coord cell = cellOf(mBlock.patches[i]);
+      if (mKinks.noneAt(cell)) continue;
+      mVoxels.expect(cell);
+      patches.index[kinked++] = i;
+    }
+    patches.count = kinked;
+    for (const std::uint16_t i : patches.all()) run(i);
   }
 
  private:
@@ -115,17 +200,17 @@ class PlaneFinder {
   }
 
   void gatherCrossings(const SurfacePatch& patch) {
+    const std::uint16_t* number = numbersOf(mBlock, patch);
+    const unsigned inside = cornersInside(mBlock.signs, mCell);
     mCrossingCount = 0;
     mMassPoint = {};
     for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {
-      const CellEdge e(std::countr_zero(bits), mCell);
-      Vec3d low{e.low[0] - mCell[0] - 0.5, e.low[1] - mCell[1] - 0.5, e.low[2] - mCell[2] - 0.5}, high = low, at = low;
-      high[e.axis] += 1;
-      const double t = mBlock.hermite.t[mBlock.edges(e.axis, e.low[0], e.low[1], e.low[2])];
+      const CellEdge& e = kCellEdge[std::countr_zero(bits)];
+      const double t = mBlock.hermite.t[number[e.slot]];
+      const bool up = (inside >> e.low & 1) != 0;
+      mCrossing[mCrossingCount++] = {up ? e.low : e.high, up ? e.high : e.low, up ? t : 1 - t};
+      Vec3d at = cornerPlace(e.low);
       at[e.axis] += t;
-      const bool up = mBlock.signs.inside(e.low[0], e.low[1], e.low[2]);
-      if (!up) std::swap(low, high);
-      mCrossing[mCrossingCount++] = {mModel.M * low, mModel.M * high, up ? t : 1 - t};
       mMassPoint += mModel.M * at;
     }
     mMassPoint *= 1.0 / mCrossingCount;
@@ -160,6 +245,7 @@ class PlaneFinder {
     if (sides.count < 2) return;
     std::array<bool, SurfaceSides::kMax> crossed = crossedSides(sides);
     const auto keep = [&](int to, int i) {
+      if (to == i) return;
       std::swap(sides.side[to], sides.side[i]);
       std::swap(crossed[to], crossed[i]);
     };
@@ -184,14 +270,17 @@ class PlaneFinder {
     const int n = sides.count;
     std::array<std::array<bool, SurfaceSides::kMax>, SurfaceSides::kMax> convex{};
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        convex[i][j] = sides.side[i].value(sides.side[j].center) + sides.side[j].value(sides.side[i].center) < 0;
+      for (int j = 0; j < i; ++j)
+        convex[i][j] = convex[j][i] =
+            sides.side[i].value(sides.side[j].center) + sides.side[j].value(sides.side[i].center) < 0;
+    std::array<AtCorners, SurfaceSides::kMax> value;
+    for (int i = 0; i < n; ++i) valueAtCorners(sides.side[i], value[i]);
     std::array<bool, SurfaceSides::kMax> crossed{};
     for (int c = 0; c < mCrossingCount; ++c) {
-      const EdgeEnds& edge = mCrossing[c];
+      const CrossedEdge& edge = mCrossing[c];
       std::array<double, SurfaceSides::kMax> root{};
       for (int i = 0; i < n; ++i) {
-        const double v0 = sides.side[i].value(edge.inside), v1 = sides.side[i].value(edge.outside);
+        const double v0 = value[i][edge.inside], v1 = value[i][edge.outside];
         root[i] = v1 > v0 ? -v0 / (v1 - v0) : std::numeric_limits<double>::infinity();
       }
       const auto within = [](double t) { return t > -kSlack && t < 1 + kSlack; };
@@ -208,6 +297,16 @@ class PlaneFinder {
       if (!found) crossed[nearest] = true;
     }
     return crossed;
+  }
+
+  void valueAtCorners(const SurfaceSide& side, AtCorners& value) const {
+    forEachBlock(bestSimdLevel(), 1, [&](std::size_t) {
+      // Of its own, so that no store can change them: else the loop is not vectorised.
+      const SurfaceSide s = side;
+      AtCorners v;
+      for (int i = 0; i < kCorners; ++i) v[i] = s.value({mCorners.x[i], mCorners.y[i], mCorners.z[i]});
+      value = v;
+    });
   }
 
   void write(const SurfaceSides& sides, const Vec3d& y) {
@@ -230,18 +329,17 @@ class PlaneFinder {
   const SampledBlock& mBlock;
   const DistanceModel& mModel;
   Mat3d mInverse;
+  CellCorners mCorners;
+  const std::function<void(DistanceWindow&)>& mRead;
   FeaturePlanes& mPlanes;
 
   DistanceWindow mWindow;
   Kinks mKinks;
   VoxelPlanes mVoxels;
   SurfaceSamples mSamples;
-  static constexpr int kMostPatches = kBlockSize * kBlockSize * kBlockSize * 4;
-  std::array<std::uint16_t, kMostPatches> mKinked;  ///< Patches at whose cells there are kinks.
-  int mKinkedCount = 0;
   std::uint32_t mPatch = 0;
   Coord mCell{};
-  std::array<EdgeEnds, 12> mCrossing;
+  std::array<CrossedEdge, 12> mCrossing;
   int mCrossingCount = 0;
   Vec3d mMassPoint{};
 };
@@ -250,15 +348,11 @@ class PlaneFinder {
 
 void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
                        const std::function<void(DistanceWindow&)>& read, FeaturePlanes& planes) {
-  const auto isUneven = [&](std::size_t i) { return !even(block, block.patches[i]); };
-  std::size_t i = 0;
-  while (i < block.patches.size() && !isUneven(i)) ++i;
-  if (i == block.patches.size()) return;
-  PlaneFinder finder(block, model, read, planes);
-  finder.expect(i);
-  for (++i; i < block.patches.size(); ++i)
-    if (isUneven(i)) finder.expect(i);
-  finder.run();
+  if (block.patches.empty() || allEven(block)) return;
+  UnevenPatches uneven;
+  for (std::size_t i = 0; i < block.patches.size(); ++i)
+    if (!even(block, block.patches[i])) uneven.add(i);
+  if (uneven.count != 0) PlaneFinder(block, model, read, planes).run(uneven);
 }
 
 }  // namespace pdc::detail

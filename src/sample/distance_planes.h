@@ -32,7 +32,7 @@ struct SampledBlock {
 /// them into sides, and replaces its crossings' planes by one plane per side, through and tangent to the side where all
 /// sides meet. Sides that none of its crossings lies on, unless they meet within the cell, and those that have no point
 /// in common with the others, are left out.
-/// \param read fills the block's window; called at most once.
+/// \param read fills the rows of the block's window; called at most once.
 void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
                        const std::function<void(DistanceWindow&)>& read, FeaturePlanes& planes);
 

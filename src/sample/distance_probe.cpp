@@ -56,12 +56,16 @@ DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double 
       if (error >= 0) slopes.push_back(static_cast<float>(error));
     }
   }
-  const double third = quantile(thirds, 0.25), fourth = quantile(fourths, 0.25);
+  const double third = quantile(thirds, 0.25);
   DistanceProbe probe{.slopeError = quantile(slopes, 0.5), .noise = 0, .texture = 0};
   if (!std::isfinite(third)) return probe;
-  const double byThirds = third / (kQuartile * std::sqrt(20.0)), byFourths = fourth / (kQuartile * std::sqrt(70.0));
-  const bool gaussian = quantile(thirds, 0.1) > kLeastDecile * third, rough = std::min(byThirds, byFourths) > kRough;
-  (rough && !gaussian ? probe.texture : probe.noise) = byThirds;
+  const double byThirds = third / (kQuartile * std::sqrt(20.0));
+  // Most grids of solids need no more quantiles: they take longer than all the rest.
+  const auto rough = [&] {
+    return std::min(byThirds, quantile(fourths, 0.25) / (kQuartile * std::sqrt(70.0))) > kRough;
+  };
+  const auto gaussian = [&] { return quantile(thirds, 0.1) > kLeastDecile * third; };
+  (byThirds > kRough && rough() && !gaussian() ? probe.texture : probe.noise) = byThirds;
   return probe;
 }
 

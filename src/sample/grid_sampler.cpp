@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/lane_loops.h"
 #include "sample/halo.h"
 #include "sample/leaf_signs.h"
 #include "sample/tile_faces.h"
@@ -134,26 +135,25 @@ class TypedGridSampler final : public GridSampler {
   }
 
   void readWindow(const Coord& block, float scale, DistanceWindow& window) const override {
-    constexpr int kBelow = DistanceWindow::kReach, kAbove = 1 + DistanceWindow::kReach;
-    constexpr std::array<int, 3> kFirst{-kBelow, 0, kBlockSize}, kEnd{0, kBlockSize, kBlockSize + kAbove};
+    constexpr int kBelow = DistanceWindow::kBelow, kAbove = DistanceWindow::kAbove;
+    constexpr int kReach = DistanceWindow::kReach, kEndReach = kBlockPoints + kReach;
+    constexpr std::array<int, 3> kFirst{-kReach, 0, kBlockSize}, kEnd{0, kBlockSize, kEndReach};
     const typename Table::Around around(mTable, block);
+    const ValueReader<ValueT> reader = mReader;  // Of its own, so that no store can change it.
     std::array<Rows, 3> rows;
     for (int px = 0; px < 3; ++px)
       for (int py = 0; py < 3; ++py) {
         for (int pz = 0; pz < 3; ++pz) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
         for (int x = kFirst[px]; x < kEnd[px]; ++x)
           for (int y = kFirst[py]; y < kEnd[py]; ++y) {
-            float* to = &window.value[DistanceWindow::index(x, y, -kBelow)];
-            mReader.template copy<kBelow>(rows[0].at(x, y) + (kBlockSize - kBelow), to);
-            mReader.template copy<kBlockSize>(rows[1].at(x, y), to + kBelow);
-            mReader.template copy<kAbove>(rows[2].at(x, y), to + kBelow + kBlockSize);
+            if ((window.rows[x + kReach] >> (y + kReach) & 1) == 0) continue;
+            float* to = &window.value[DistanceWindow::index(x, y, 0)];
+            reader.template copy<kBelow>(rows[0].at(x, y) + (kBlockSize - kBelow), to - kBelow);
+            reader.template copy<kBlockSize>(rows[1].at(x, y), to);
+            reader.template copy<kAbove>(rows[2].at(x, y), to + kBlockSize);
           }
       }
-    const float low = mLow, high = mHigh;
-    for (float& v : window.value) {
-      const float scaled = v * scale;
-      v = ((v > low) & (v < high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
-    }
+    scaleKnown(scale, window);
   }
 
  private:
@@ -286,6 +286,16 @@ class TypedGridSampler final : public GridSampler {
     return cells;
   }
 
+  /// Scales the values that a slope may be made of, and makes the others NaN.
+  void scaleKnown(float scale, DistanceWindow& window) const {
+    forEachBlock(bestSimdLevel(), 1, [&window, scale, low = mLow, high = mHigh](std::size_t) {
+      for (float& v : window.value) {
+        const float scaled = v * scale;
+        v = ((v > low) & (v < high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
+      }
+    });
+  }
+
   /// A neighbouring block's rows of eight values along z; those of a tile are all the same.
   class Rows {
    public:
@@ -310,6 +320,7 @@ class TypedGridSampler final : public GridSampler {
   void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
     const HaloRows needed(edges);
     const typename Table::Around around(mTable, block);
+    const ValueReader<ValueT> reader = mReader;
     forEachBlock(mLevel, 9, [&](std::size_t part) {
       // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
       constexpr std::array<int, 3> kFirst{-1, 0, 8}, kEnd{0, 8, 10};
@@ -322,9 +333,9 @@ class TypedGridSampler final : public GridSampler {
         for (int y = kFirst[py]; y < kEnd[py]; ++y) {
           if (!needed.row(x, y)) continue;
           float* to = &halo.value[Halo::index(x, y, -1)];
-          if (needed.below()) mReader.template copy<1>(rows[0].at(x, y) + 7, to);
-          mReader.template copy<8>(rows[1].at(x, y), to + 1);
-          mReader.template copy<2>(rows[2].at(x, y), to + 9);
+          if (needed.below()) reader.template copy<1>(rows[0].at(x, y) + 7, to);
+          reader.template copy<8>(rows[1].at(x, y), to + 1);
+          reader.template copy<2>(rows[2].at(x, y), to + 9);
         }
     });
   }

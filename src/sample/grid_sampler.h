@@ -30,7 +30,7 @@ class GridSampler {
                            HermiteBlock& hermite) const = 0;
   /// Up to `most` leaves, as blocks, spread evenly over the tree.
   [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
-  /// The values about a block times `scale`.
+  /// The values about a block times `scale`, in the window's rows.
   virtual void readWindow(const Coord& block, float scale, DistanceWindow& window) const = 0;
 };
 

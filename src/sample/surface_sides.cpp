@@ -1,7 +1,9 @@
 #include "sample/surface_sides.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "math/lane_loops.h"
 #include "pdc/math/solvers.h"
@@ -30,23 +32,32 @@ struct Moments {
   [[nodiscard]] Vec3d vector(int first) const { return {sum[first], sum[first + 1], sum[first + 2]}; }
 };
 
-/// The most trusted sample that may found a side; -1 if there is none.
-int findSeed(const SurfaceSamples& samples) {
+/// The blocks of lanes whose samples are not all without weight, a bit each.
+using LiveBlocks = std::uint64_t;
+static_assert(SurfaceSamples::kCapacity / kLanes < 64);
+
+LiveBlocks allBlocks(const SurfaceSamples& samples) { return (LiveBlocks{1} << samples.blocks()) - 1; }
+
+/// The most trusted sample that may found a side, of several the first; -1 if there is none.
+int findSeed(const SurfaceSamples& samples, LiveBlocks live) {
   alignas(64) std::array<float, kLanes> most{};
   alignas(64) std::array<std::int32_t, kLanes> at{};
-  const float *weight = samples.column[SurfaceSamples::kWeight].data(),
-              *trust = samples.column[SurfaceSamples::kTrust].data();
-  for (int block = 0; block < samples.blocks(); ++block)
+  for (; live != 0; live &= live - 1) {
+    const int first = std::countr_zero(live) * kLanes;
+    const float *weight = &samples.column[SurfaceSamples::kWeight][first],
+                *trust = &samples.column[SurfaceSamples::kTrust][first];
     forEachLane([&](int lane) {
-      const int i = block * kLanes + lane;
-      const float t = weight[i] > kLeastSeed ? trust[i] : 0.0F;
-      at[lane] = t > most[lane] ? i : at[lane];
-      most[lane] = t > most[lane] ? t : most[lane];
+      const float before = most[lane], own = trust[lane], t = weight[lane] > kLeastSeed ? own : 0.0F;
+      const std::int32_t i = first + lane, earlier = at[lane];
+      const bool more = t > before;
+      at[lane] = more ? i : earlier;
+      most[lane] = more ? t : before;
     });
-  int best = 0;
-  for (int lane = 1; lane < kLanes; ++lane)
-    if (most[lane] > most[best] || (most[lane] == most[best] && at[lane] < at[best])) best = lane;
-  return most[best] > 0 ? at[best] : -1;
+  }
+  const float best = maxLanes(most.data());
+  if (!(best > 0)) return -1;
+  forEachLane([&](int lane) { at[lane] = most[lane] == best ? at[lane] : SurfaceSamples::kCapacity; });
+  return minLanes(at.data());
 }
 
 /// The samples' columns from a lane on.
@@ -59,10 +70,10 @@ struct LanePointers {
 };
 
 /// The direction of the trusted sum of the normals that are like `mean`; `mean` itself if there are none.
-Vec3f meanNormal(SurfaceSamples& samples, const Vec3f& mean) {
+Vec3f meanNormal(SurfaceSamples& samples, LiveBlocks live, const Vec3f& mean) {
   alignas(64) std::array<std::array<float, kLanes>, 3> sum{};
-  for (int block = 0; block < samples.blocks(); ++block) {
-    const LanePointers p(samples, block);
+  for (; live != 0; live &= live - 1) {
+    const LanePointers p(samples, std::countr_zero(live));
     forEachLane([&](int lane) {
       const Vec3f n = p.normal(lane);
       const float t = dot(n, mean) > kSameSide ? p.column[SurfaceSamples::kTrust][lane] : 0.0F;
@@ -76,10 +87,12 @@ Vec3f meanNormal(SurfaceSamples& samples, const Vec3f& mean) {
   return l > 0 ? s * (1 / l) : mean;
 }
 
-/// Sums over the samples whose normals are like `mean`, and takes their weight away. \param share gets their trust.
-void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments, float* share) {
+/// Sums over the samples whose normals are like `mean`, and takes their weight away. \param share gets their trust, in
+/// live blocks.
+void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, Moments& moments, float* share) {
   auto& sum = moments.lanes;
-  for (int block = 0; block < samples.blocks(); ++block) {
+  for (LiveBlocks blocks = live; blocks != 0; blocks &= blocks - 1) {
+    const int block = std::countr_zero(blocks);
     const LanePointers p(samples, block);
     float *weight = p.column[SurfaceSamples::kWeight], *trust = p.column[SurfaceSamples::kTrust];
     const float *fx = p.column[SurfaceSamples::kFootX], *fy = p.column[SurfaceSamples::kFootY],
@@ -108,6 +121,7 @@ void takeLike(SurfaceSamples& samples, const Vec3f& mean, Moments& moments, floa
       add(Moments::kNormalFoot + 3, tn.y * f.x, tn.y * f.y, tn.y * f.z);
       add(Moments::kNormalFoot + 6, tn.z * f.x, tn.z * f.y, tn.z * f.z);
     });
+    if (!(maxLanes(weight) > 0)) live &= ~(LiveBlocks{1} << block);
   }
   for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k].data())};
 }
@@ -164,18 +178,21 @@ void SurfaceSides::dropLight(double share) {
 SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
   SurfaceSides sides;
   alignas(64) std::array<float, SurfaceSamples::kCapacity> share;
+  LiveBlocks live = allBlocks(samples);
+  const bool noisy = normalNoise > kNoisy;
   forEachBlock(level, 1, [&](std::size_t) {
     while (sides.count < SurfaceSides::kMax) {
-      const int seed = findSeed(samples);
+      const int seed = findSeed(samples, live);
       if (seed < 0) break;
       const Vec3f founder = samples.normal(seed);
-      Vec3f mean = meanNormal(samples, meanNormal(samples, founder));
+      Vec3f mean = meanNormal(samples, live, meanNormal(samples, live, founder));
       if (!(dot(founder, mean) > kSameSide)) mean = founder;
       Moments moments;
-      takeLike(samples, mean, moments, share.data());
+      if (noisy) std::fill_n(share.begin(), samples.blocks() * kLanes, 0.0F);
+      takeLike(samples, live, mean, moments, share.data());
       SurfaceSide& side = sides.side[sides.count++];
       side = meanSide(moments);
-      if (normalNoise > kNoisy) {
+      if (noisy) {
         side = fitNoisySide(samples, share.data(), side, normalNoise, level);
       } else {
         bendSide(moments, normalNoise, side);

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include "math/float4.h"
 #include "sample/grid_sampler.h"
 
 namespace pdc::detail {
@@ -39,16 +38,15 @@ class ValueReader {
   /// value() of `count` values.
   template <int count>
   void copy(const ValueT* from, float* to) const {
-    if constexpr (std::is_same_v<ValueT, float>) {
+    // All are read before the first is written: a compiler that cannot tell `to` from the rest does not vectorise.
+    float read[count];
+    if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
       // What double precision would give, where the isovalue is a float.
-      if (mIsoIsFloat) {
-        int i = 0;
-        for (; i + 4 <= count; i += 4) store((loadFloat4(from + i) - mIsoFloat) * mSign, to + i);
-        for (; i < count; ++i) to[i] = (from[i] - mIsoFloat) * mSign;
-        return;
-      }
+      for (int i = 0; i < count; ++i) read[i] = (static_cast<float>(from[i]) - mIsoFloat) * mSign;
+    } else {
+      for (int i = 0; i < count; ++i) read[i] = value(from[i]);
     }
-    for (int i = 0; i < count; ++i) to[i] = value(from[i]);
+    std::memcpy(to, read, sizeof read);
   }
 
   /// inside() of 64 values, one per bit. \param allFinite set to false if one is not.

@@ -41,7 +41,9 @@ struct SurfaceSamples {
   int count = 0;  ///< The rest of the last block of lanes has no weight.
 };
 
-/// The samples of a block's voxels, found a row at a time.
+struct OctantList;
+
+/// The samples of a block's voxels, found when the first are asked for.
 ///
 /// Along each axis a voxel has slopes from both sides (see OneSidedSlopes), so that one sees one side of a crease only.
 /// A combination of slopes, one of the eight octants, is believed as far as it has length one, as a distance's gradient
@@ -63,11 +65,15 @@ class VoxelPlanes {
  private:
   static constexpr int kVoxels = kBlockPoints + 2;  ///< -1 to 9 on each axis.
   static constexpr int kCapacity = kVoxels * kVoxels * kVoxels * SurfaceSamples::kOctants + kLanes;
+  /// First sample of each voxel, end of the last, and room for what a row's lanes write beyond.
+  using RowStarts = std::array<std::uint16_t, kVoxels + kLanes>;
+  using Columns = std::array<std::array<float, kCapacity>, SurfaceSamples::kColumns>;
 
-  void find(int row);
+  /// Of all voxels that are needed.
+  void find();
+  void addRow(int row, OctantList& list);
   /// Of a voxel's samples only three count: with noise more octants agree with themselves by chance.
-  void keepHeaviest(int begin, int end);
-  /// Of the row found last.
+  void keepHeaviest(int most, int begin, int end);
   void dropWeightless(int row);
 
   const DistanceWindow& mWindow;
@@ -75,10 +81,11 @@ class VoxelPlanes {
   Mat3f mM, mK;
   SimdLevel mLevel;
 
-  std::array<std::uint16_t, kVoxels * kVoxels> mNeeded{};  ///< By row: bit z + 1; 0 once they are found.
-  std::array<std::array<std::uint16_t, kVoxels + 1>, kVoxels * kVoxels> mStart;  ///< By row: first sample of a voxel.
-  std::array<std::array<float, kCapacity>, SurfaceSamples::kColumns> mColumn;
+  std::array<std::uint16_t, kVoxels * kVoxels> mNeeded{};  ///< By row: bit z + 1.
+  std::array<RowStarts, kVoxels * kVoxels> mStart;
+  Columns mColumn;
   int mCount = 0;
+  bool mFound = false;
 };
 
 }  // namespace pdc::detail

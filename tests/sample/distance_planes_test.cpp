@@ -103,6 +103,22 @@ TEST(VoxelPlanes, WhatIsNoDistanceGivesNone) {
   for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kWeight][i], 0);
 }
 
+TEST(VoxelPlanes, DoNotDependOnOtherCells) {
+  const DistanceWindow w = window(wedge);
+  const Coord cell{4, 4, 4};
+  const SurfaceSamples alone = samplesAbout(w, cell);
+  const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, Mat3f::identity());
+  // In the rows of the cell, so that these are too long for half the lanes, and in rows of their own.
+  for (const Coord& other : {Coord{4, 4, 0}, Coord{4, 5, 7}, Coord{0, 0, 0}, Coord{7, 7, 7}}) voxels->expect(other);
+  voxels->expect(cell);
+  SurfaceSamples among;
+  voxels->gather(cell, among);
+  ASSERT_EQ(among.count, alone.count);
+  ASSERT_GT(alone.count, 0);
+  for (int c = 0; c < SurfaceSamples::kColumns; ++c)
+    for (int i = 0; i < alone.count; ++i) EXPECT_EQ(among.column[c][i], alone.column[c][i]) << c << ' ' << i;
+}
+
 TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
   const DistanceWindow w = window(wedge);
   const SurfaceSamples best = samplesAbout(w, {4, 4, 4}),
