@@ -31,8 +31,8 @@ class Certifier {
       : mMap(source.map()),
         mRings(blocks, topology),
         mFans(source, blocks, mRings, mesh),
-        mFaces(mMap, mRings, mFans, mLoose, mesh),
         mLoose(doubts.vertices),
+        mFaces(mMap, mRings, mFans, mLoose, mesh),
         mFree(mLoose.size()),
         mDrawn(mLoose.size()),
         mCreaseMoves(mFaces, mLoose),
@@ -42,7 +42,7 @@ class Certifier {
     std::transform(mLoose.begin(), mLoose.end(), mFree.begin(), [](const LooseVertex& v) { return v.place; });
     settle(doubts.quads);
     std::vector<EdgeRef> active = quadsAt(mLoose.size(), [](std::size_t i) { return i; });
-    const NearFaces near(mFaces, active);
+    NearFaces near(mFaces, active);
     std::vector<EdgeRef> stuck;
     while (!active.empty()) {
       monitor.throwIfStopped();
@@ -80,7 +80,7 @@ class Certifier {
 
   /// Number of the vertex among the loose ones if it may still be moved, or -1.
   [[nodiscard]] std::ptrdiff_t movable(std::uint32_t vertex) const {
-    const LooseVertex* loose = findLoose(mLoose, vertex);
+    const LooseVertex* loose = mFaces.loose(vertex);
     if (loose == nullptr) return -1;
     const std::ptrdiff_t i = loose - mLoose.data();
     return mDrawn[i] < kDrawnIn ? i : -1;
@@ -228,8 +228,8 @@ class Certifier {
   const LatticeMap& mMap;
   QuadRings mRings;
   Fans mFans;
-  FaceTests mFaces;
   std::vector<LooseVertex> mLoose;
+  FaceTests mFaces;
   std::vector<Vec3f> mFree;          ///< By loose vertex: where it is drawn back from.
   std::vector<std::uint8_t> mDrawn;  ///< By loose vertex: by how many steps it was drawn back from there.
   CreaseMoves mCreaseMoves;

@@ -65,11 +65,11 @@ Found findPlace(const NearFaces& near, const FaceTests& tests, const LooseVertex
   std::transform(places.begin(), places.end(), world.begin(),
                  [&](const Vec3f& p) { return tests.worldPosition(vertex, p); });
   VertexTrial trial(near, tests, vertex, world);
-  Found best{trial.countOffences(world[0], kMostOffences + 1)};
+  Found best{trial.countOffences(0, kMostOffences + 1)};
   if (best.offences == failedWith || best.offences > kMostOffences) return best;
   for (std::size_t i = 1; i < places.size() && best.offences > 0; ++i) {
-    if (!trial.finds(world[i])) continue;
-    const std::size_t offences = trial.countOffences(world[i], best.offences);
+    if (!trial.finds(i)) continue;
+    const std::size_t offences = trial.countOffences(i, best.offences);
     if (offences < best.offences) best = {offences, i, places[i]};
   }
   return best;

@@ -9,8 +9,7 @@ namespace {
 
 /// The ends of the edge in lattice space, the one inside first.
 std::pair<Vec3d, Vec3d> insideToOutside(const QuadRings& rings, const EdgeRef& e) {
-  const Coord low = rings.low(e);
-  Vec3d from{double(low[0]), double(low[1]), double(low[2])}, to = from;
+  Vec3d from = rings.lowEnd(e), to = from;
   to[e.axis()] += 1;
   if (!rings.lowInside(e)) std::swap(from, to);
   return {from, to};
@@ -28,21 +27,24 @@ bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
   return crossed(0, 1, 2) && crossed(0, 2, 3);
 }
 
-bool FaceTests::facesForward(const EdgeRef& e, const Triangle& vertices, const TriangleCorners& t) const {
+Vec3d FaceTests::forward(const EdgeRef& e) const {
   const auto [from, to] = insideToOutside(mRings, e);
-  const Vec3d d = mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
+  return mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
+}
+
+bool FaceTests::facesForward(const Vec3d& forward, const Triangle& vertices, const TriangleCorners& t) const {
   const Vec3d p = vecCast<double>(t[0]);
   const Vec3d u = vecCast<double>(t[1]) - p, v = vecCast<double>(t[2]) - p, n = cross(u, v);
   // Differences of floats are exact or nearly so; what is left is far below this share.
   constexpr double kRounding = 1e-14;
   const double doubt = kRounding * length(u) * length(v);
-  if (dot(n, d) > doubt * length(d)) return true;
+  if (dot(n, forward) > doubt * length(forward)) return true;
   if (!(length(n) > doubt)) return false;
   // The cosine from which a triangle belongs to a plane.
   constexpr double kAlike = 0.5;
   for (const std::uint32_t vertex : vertices)
-    if (const LooseVertex* loose = findLoose(mLoose, vertex))
-      for (const Vec3f& normal : loose->creaseNormals)
+    if (const LooseVertex* found = loose(vertex))
+      for (const Vec3f& normal : found->creaseNormals)
         if (dot(n, vecCast<double>(normal)) > kAlike * length(n)) return true;
   return false;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,12 +24,36 @@ struct LooseVertex {
   std::array<Vec3f, 4> creaseNormals{};
 };
 
-/// The loose vertex of that number, or null. \pre the list is sorted by vertex
-inline const LooseVertex* findLoose(const std::vector<LooseVertex>& loose, std::uint64_t vertex) {
-  const auto it = std::lower_bound(loose.begin(), loose.end(), vertex,
-                                   [](const LooseVertex& l, std::uint64_t v) { return l.vertex < v; });
-  return it != loose.end() && it->vertex == vertex ? &*it : nullptr;
-}
+/// Finds loose vertices by their numbers.
+class LooseIndex {
+ public:
+  /// \param loose sorted by vertex.
+  explicit LooseIndex(const std::vector<LooseVertex>& loose)
+      : mWords(loose.empty() ? 0 : loose.back().vertex / 64 + 1) {
+    for (const LooseVertex& v : loose) mWords[v.vertex / 64].bits |= std::uint64_t{1} << v.vertex % 64;
+    std::size_t count = 0;
+    for (Word& w : mWords) {
+      w.before = count;
+      count += static_cast<std::size_t>(std::popcount(w.bits));
+    }
+  }
+
+  /// The vertex's place in the list, or -1.
+  [[nodiscard]] std::ptrdiff_t find(std::uint64_t vertex) const {
+    if (vertex / 64 >= mWords.size()) return -1;
+    const Word& w = mWords[vertex / 64];
+    const std::uint64_t bit = std::uint64_t{1} << vertex % 64;
+    if ((w.bits & bit) == 0) return -1;
+    return static_cast<std::ptrdiff_t>(w.before) + std::popcount(w.bits & (bit - 1));
+  }
+
+ private:
+  struct Word {
+    std::uint64_t bits = 0;  ///< Of 64 vertices.
+    std::size_t before = 0;  ///< Loose ones in earlier words.
+  };
+  std::vector<Word> mWords;
+};
 
 /// A sign-changing lattice edge of a block, whose quad it stands for.
 struct EdgeRef {

@@ -20,6 +20,9 @@ namespace {
 /// with free ones.
 constexpr double kCellReach = 1, kFreeReach = kFreeHalfSize + 0.5;
 
+/// Where more faces are far-reaching, lists of their neighbours would take much more room than the mesh.
+constexpr std::size_t kFacesPerListed = 4;
+
 /// The lattice points of a block that are not farther than `reach` from a box, as bits of a CellMask.
 class Window {
  public:
@@ -54,9 +57,11 @@ EdgeRef edgeAt(std::int32_t block, int axis, int x, int bit) {
 
 /// The face being looked at.
 struct NearFaces::Scratch {
-  std::vector<Triangle> own, other;
-  std::vector<TriangleCorners> corners;  ///< Of `own`.
-  std::vector<TrianglePlane> planes;     ///< Of `own`.
+  std::vector<FilteredTriangle> own;
+  Box box;  ///< Of all of them.
+  std::vector<Triangle> triangles;
+  std::vector<EdgeRef> edges;
+  std::vector<Offence> offences;
 };
 
 NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching)
@@ -73,154 +78,222 @@ NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReac
     most = std::max(most, reach[i]);
     mLargestReach = std::max(mLargestReach, reach[i]);
   }
+  if (farReaching.size() > tests.rings().faceCount() / kFacesPerListed) return;
+  mFarFaces.resize(farReaching.size());
+  tbb::enumerable_thread_specific<std::vector<EdgeRef>> edges;
+  tbb::parallel_for(std::size_t{0}, farReaching.size(), [&](std::size_t i) {
+    mFarFaces[i].edge = farReaching[i];
+    std::vector<EdgeRef>& own = edges.local();
+    forEachBlock(mLevel, 1, [&](std::size_t) { list(mFarFaces[i], own); });
+  });
 }
 
 Vec3d NearFaces::latticePosition(const Vec3f& corner) const { return mToLattice * (vecCast<double>(corner) - mOrigin); }
 
 double NearFaces::reachOf(const EdgeRef& e) const {
   if (!mTests.map().affine()) return kFreeReach;
-  const Coord at = mTests.rings().low(e);
+  const Vec3d at = mTests.rings().lowEnd(e);
   double reach = 0;
-  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e))) reach = std::max(reach, distance(at, corner));
+  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e)))
+    reach = std::max(reach, distance(at, latticePosition(corner)));
   return reach;
 }
 
-double NearFaces::distance(const Coord& at, const Vec3f& corner) const {
-  const Vec3d step = latticePosition(corner) - Vec3d{double(at[0]), double(at[1]), double(at[2])};
+double NearFaces::distance(const Vec3d& from, const Vec3d& place) {
+  const Vec3d step = place - from;
   return std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
 }
 
-bool NearFaces::finds(const EdgeRef& e, const Vec3f& corner) const {
-  const std::int32_t place = mFar.place(e.block);
-  return place >= 0 && mFar.edges(place, e.axis()).test(e.x(), e.y(), e.z()) &&
-         distance(mTests.rings().low(e), corner) <= mReach[place];
-}
+double NearFaces::farReach(const EdgeRef& e) const { return mFar.has(e) ? mReach[mFar.place(e.block)] : -1; }
 
-template <typename Visit>
-bool NearFaces::forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const {
-  static const CellMask kNoEdges;
+inline void NearFaces::addFacesOf(std::int32_t block, const LatticeBox& box, std::vector<EdgeRef>& out) const {
   const std::int32_t farPlace = mFar.place(block);
   const Coord& coord = mTests.rings().blockCoord(block);
-  const Window near(low, high, kCellReach, coord), far(low, high, farPlace < 0 ? kCellReach : mReach[farPlace], coord);
+  const Window near(box.low, box.high, kCellReach, coord);
   const BlockTopology& topology = mTests.rings().block(block);
-  for (int axis = 0; axis < 3; ++axis) {
-    const CellMask& farEdges = farPlace < 0 ? kNoEdges : mFar.edges(farPlace, axis);
-    for (int x = far.beginX(); x < far.endX(); ++x) {
-      const std::uint64_t edges = topology.edges[axis].word[x];
-      std::uint64_t wanted = (edges & near.word(x)) | (farEdges.word[x] & far.word(x));
-      for (; wanted != 0; wanted &= wanted - 1) {
-        const int bit = std::countr_zero(wanted);
-        const std::uint64_t before = bitCount(edges & ((std::uint64_t{1} << bit) - 1));
-        if (!visit(edgeAt(block, axis, x, bit),
-                   topology.firstQuad + topology.quadsBefore[kBlockSize * axis + x] + before))
-          return false;
-      }
-    }
+  const auto add = [&](int axis, int x, std::uint64_t edges) {
+    for (; edges != 0; edges &= edges - 1) out.push_back(edgeAt(block, axis, x, std::countr_zero(edges)));
+  };
+  if (farPlace < 0) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int x = near.beginX(); x < near.endX(); ++x) add(axis, x, topology.edges[axis].word[x] & near.word(x));
+    return;
   }
-  return true;
+  const Window far(box.low, box.high, mReach[farPlace], coord);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int x = far.beginX(); x < far.endX(); ++x)
+      add(axis, x, (topology.edges[axis].word[x] & near.word(x)) | (mFar.edges(farPlace, axis).word[x] & far.word(x)));
 }
 
-/// Calls visit(edge, number of its face) for all faces that may reach into a box of lattice space, until it says no.
-template <typename Visit>
-void NearFaces::forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const {
+void NearFaces::facesAbout(const Box& box, std::vector<EdgeRef>& out) const { facesAbout(latticeBox(box), out); }
+
+inline void NearFaces::facesAbout(const LatticeBox& box, std::vector<EdgeRef>& out) const {
+  out.clear();
   Coord from, to;
   for (int i = 0; i < 3; ++i) {
-    from[i] = static_cast<std::int32_t>(std::floor(low[i] - mLargestReach)) >> 3;
-    to[i] = static_cast<std::int32_t>(std::floor(high[i] + mLargestReach)) >> 3;
+    from[i] = static_cast<std::int32_t>(std::floor(box.low[i] - mLargestReach)) >> 3;
+    to[i] = static_cast<std::int32_t>(std::floor(box.high[i] + mLargestReach)) >> 3;
   }
   for (Coord b = from; b[0] <= to[0]; ++b[0])
     for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
       for (b[2] = from[2]; b[2] <= to[2]; ++b[2])
-        if (const std::int32_t block = mTests.rings().find(b);
-            block != BlockIndex::kMissing && !forEachIn(block, low, high, visit))
-          return;
+        if (const std::int32_t block = mTests.rings().find(b); block != BlockIndex::kMissing)
+          addFacesOf(block, box, out);
 }
 
-/// Box, in lattice space, of the face being looked at.
-inline std::pair<Vec3d, Vec3d> NearFaces::latticeBox(const EdgeRef& e, const Scratch& own) const {
-  if (!mTests.map().affine()) {
-    const Coord at = mTests.rings().low(e);
-    const Vec3d p{double(at[0]), double(at[1]), double(at[2])}, reach{kFreeReach, kFreeReach, kFreeReach};
-    return {p - reach, p + reach};
-  }
+/// Of a face that is in a box of world space.
+inline NearFaces::LatticeBox NearFaces::latticeBox(const EdgeRef& e, const Box& box) const {
+  if (mTests.map().affine()) return latticeBox(box);
+  const Vec3d p = mTests.rings().lowEnd(e), reach{kFreeReach, kFreeReach, kFreeReach};
+  return {p - reach, p + reach};
+}
+
+inline NearFaces::LatticeBox NearFaces::latticeBox(const Box& box) const {
   constexpr double kHuge = 1e300;
-  Vec3d low{kHuge, kHuge, kHuge}, high = low * -1.0;
-  for (const TriangleCorners& t : own.corners)
-    for (const Vec3f& corner : t) {
-      const Vec3d p = latticePosition(corner);
-      for (int i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
+  LatticeBox result{{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3f at;
+    for (int i = 0; i < 3; ++i) at[i] = (corner >> i & 1) != 0 ? box.high[i] : box.low[i];
+    const Vec3d p = latticePosition(at);
+    for (int i = 0; i < 3; ++i) {
+      result.low[i] = std::min(result.low[i], p[i]);
+      result.high[i] = std::max(result.high[i], p[i]);
     }
-  return {low, high};
+  }
+  return result;
 }
 
-std::vector<NearFaces::Face> NearFaces::facesAbout(const Vec3d& low, const Vec3d& high) const {
-  std::vector<Face> faces;
-  forEachNear(low, high, [&](const EdgeRef& edge, std::uint64_t face) {
-    faces.push_back({edge, face});
-    return true;
-  });
-  return faces;
+/// Lists what is near the face wherever it is between its present and its safe place.
+inline void NearFaces::list(FarFace& face, std::vector<EdgeRef>& edges) const {
+  const Quad ring = mTests.rings().vertices(face.edge);
+  face.likely = Box(mTests.corners(ring));
+  for (const std::uint32_t v : ring)
+    if (const LooseVertex* loose = mTests.loose(v)) face.likely.add(float4(mTests.worldPosition(*loose, loose->safe)));
+  facesAbout(latticeBox(face.edge, face.likely), edges);
+  for (const EdgeRef& e : edges) {
+    if (mFar.has(e)) {
+      if (e != face.edge) face.far.push_back(static_cast<std::uint32_t>(mFar.number(e)));
+    } else if (!staysApart(e, face.likely)) {
+      face.others.push_back(e);
+    }
+  }
+}
+
+/// Whether a face whose vertices stay where they are never reaches into a box.
+inline bool NearFaces::staysApart(const EdgeRef& e, const Box& box) const {
+  const Quad* quad = mTests.quad(mTests.rings().face(e));
+  if (quad == nullptr) return false;
+  Box own(mTests.corners(*quad));
+  if (!own.apartFrom(box)) return false;
+  // It may become a fan, about a vertex on its lattice edge.
+  Vec3d end = mTests.rings().lowEnd(e);
+  own.add(float4(vecCast<float>(mTests.map().position(end))));
+  end[e.axis()] += 1;
+  own.add(float4(vecCast<float>(mTests.map().position(end))));
+  return own.apartFrom(box);
+}
+
+inline const NearFaces::FarFace* NearFaces::listed(const EdgeRef& e) const {
+  return !mFarFaces.empty() && mFar.has(e) ? &mFarFaces[mFar.number(e)] : nullptr;
+}
+
+/// Calls visit(edge) for all faces that may meet the one being looked at, until it says no.
+template <typename Visit>
+void NearFaces::forEachNear(const EdgeRef& e, Scratch& own, Visit&& visit) const {
+  const FarFace* face = listed(e);
+  if (face == nullptr || !face->likely.contains(own.box)) {
+    facesAbout(latticeBox(e, own.box), own.edges);
+    for (const EdgeRef& other : own.edges)
+      if (other != e && !visit(other)) return;
+    return;
+  }
+  for (const std::uint32_t i : face->far)
+    if (const FarFace& other = mFarFaces[i]; !own.box.apartFrom(other.now) && !visit(other.edge)) return;
+  for (const EdgeRef& other : face->others)
+    if (!visit(other)) return;
+}
+
+inline void NearFaces::load(Scratch& own, const std::vector<Triangle>& triangles) const {
+  own.own.clear();
+  for (const Triangle& t : triangles) own.own.emplace_back(t, mTests.corners(t));
+  own.box = own.own[0].box;
+  for (const FilteredTriangle& t : own.own) own.box.add(t.box);
 }
 
 inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom,
                               std::vector<Offence>& out) const {
-  own.corners.clear();
-  own.planes.clear();
-  for (const Triangle& t : own.own) {
-    own.corners.push_back(mTests.corners(t));
-    own.planes.emplace_back(t, own.corners.back());
-  }
-  Box box(own.corners[0]);
   for (std::size_t i = 0; i < own.own.size(); ++i) {
-    if (!mTests.facesForward(e, own.own[i], own.corners[i])) return out.push_back({e, e, own.own[i], own.own[i]});
+    const FilteredTriangle& t = own.own[i];
+    if (!mTests.facesForward(e, t.vertices, t.corners)) return out.push_back({e, e, t.vertices, t.vertices});
     for (std::size_t j = 0; j < i; ++j)
-      if (trianglesIntersect(own.corners[i], own.own[i], own.corners[j], own.own[j]))
-        out.push_back({e, e, own.own[j], own.own[i]});
-    for (const Vec3f& p : own.corners[i]) box.add(float4(p));
+      if (trianglesIntersect(t, own.own[j])) out.push_back({e, e, own.own[j].vertices, t.vertices});
   }
   const auto isFoundFrom = [&](const EdgeRef& other) {
     return foundFrom != nullptr && other < e && foundFrom->has(other);
   };
   const auto goOn = [&] { return foundFrom != nullptr || out.empty(); };
   if (!goOn()) return;
-  const auto [low, high] = latticeBox(e, own);
-  forEachNear(low, high, [&](const EdgeRef& other, std::uint64_t face) {
-    if (other == e) return true;
+  forEachNear(e, own, [&](const EdgeRef& other) {
+    const std::uint64_t face = mTests.rings().face(other);
     if (const Quad* quad = mTests.quad(face)) {
       const std::array<Vec3f, 4> corners = mTests.corners(*quad);
-      if (box.apartFrom(Box(corners)) || isFoundFrom(other)) return true;
-      // Nearly always all of the quad is on one side of the face's triangles.
-      for (std::size_t i = 0; i < own.own.size(); ++i) {
-        if (own.planes[i].clears(*quad, corners)) continue;
-        compare(e, own, i, other, {(*quad)[0], (*quad)[1], (*quad)[2]}, {corners[0], corners[1], corners[2]}, out);
-        compare(e, own, i, other, {(*quad)[0], (*quad)[2], (*quad)[3]}, {corners[0], corners[2], corners[3]}, out);
-      }
+      if (own.box.apartFrom(Box(corners)) || isFoundFrom(other)) return true;
+      compare(e, own, other, *quad, corners, out);
     } else if (!isFoundFrom(other)) {
-      mTests.triangles(other, face, own.other);
-      for (const Triangle& t : own.other)
-        for (std::size_t i = 0; i < own.own.size(); ++i) compare(e, own, i, other, t, mTests.corners(t), out);
+      mTests.triangles(other, face, own.triangles);
+      for (const Triangle& t : own.triangles)
+        for (const FilteredTriangle& o : own.own)
+          if (trianglesIntersect(o, {t, mTests.corners(t)})) out.push_back({e, other, o.vertices, t});
     }
     return goOn();
   });
 }
 
-/// Own triangle i with a triangle of another face.
-inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, std::size_t i, const EdgeRef& other,
-                               const Triangle& t, const TriangleCorners& corners, std::vector<Offence>& out) const {
-  if (own.planes[i].clears(t, corners) || TrianglePlane(t, corners).clears(own.own[i], own.corners[i])) return;
-  if (trianglesIntersect(own.corners[i], own.own[i], corners, t)) out.push_back({e, other, own.own[i], t});
+/// The triangles of the face in `own` with those of a quad.
+inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, const EdgeRef& other, const Quad& quad,
+                               const std::array<Vec3f, 4>& corners, std::vector<Offence>& out) const {
+  const Points points(corners);
+  for (const FilteredTriangle& o : own.own) {
+    const std::array<Sides, 4> sides = o.plane.sides(quad, points);
+    // Nearly always all of the quad is on one side.
+    if (all(sides).same()) continue;
+    for (int j = 1; j < 3; ++j) {
+      const std::array<Sides, 3> tSides{sides[0], sides[j], sides[j + 1]};
+      if (all(tSides).same()) continue;
+      const Triangle t{quad[0], quad[j], quad[j + 1]};
+      const TriangleCorners tCorners{corners[0], corners[j], corners[j + 1]};
+      const std::array<Sides, 4> oSides = TrianglePlane(t, tCorners).sides(quadOf(o.vertices), o.points);
+      if (all(oSides).same()) continue;
+      if (trianglesIntersect(o.corners, o.vertices, tCorners, t, {signs(oSides), signs(tSides)}))
+        out.push_back({e, other, o.vertices, t});
+    }
+  }
 }
 
-std::vector<Offence> NearFaces::findOffences(const std::vector<EdgeRef>& active) const {
+inline void NearFaces::updateBox(FarFace& face, Scratch& own) const {
+  const std::uint64_t number = mTests.rings().face(face.edge);
+  if (const Quad* quad = mTests.quad(number)) {
+    face.now = Box(mTests.corners(*quad));
+    return;
+  }
+  mTests.triangles(face.edge, number, own.triangles);
+  face.now = Box(mTests.corners(own.triangles[0]));
+  for (const Triangle& t : own.triangles) face.now.add(Box(mTests.corners(t)));
+}
+
+std::vector<Offence> NearFaces::findOffences(const std::vector<EdgeRef>& active) {
   tbb::enumerable_thread_specific<Scratch> scratch;
+  tbb::parallel_for(std::size_t{0}, active.size(), [&](std::size_t i) {
+    if (!mFarFaces.empty() && mFar.has(active[i])) updateBox(mFarFaces[mFar.number(active[i])], scratch.local());
+  });
   const EdgeSet all(mTests.rings().blockCount(), active);
   std::vector<Offence> found = gather<Offence>(active.size(), [&](std::size_t i, std::vector<Offence>& out) {
     Scratch& own = scratch.local();
-    mTests.triangles(active[i], mTests.rings().face(active[i]), own.own);
-    forEachBlock(mLevel, 1, [&](std::size_t) { search(active[i], own, &all, out); });
+    mTests.triangles(active[i], mTests.rings().face(active[i]), own.triangles);
+    forEachBlock(mLevel, 1, [&](std::size_t) {
+      load(own, own.triangles);
+      search(active[i], own, &all, out);
+    });
   });
   tbb::parallel_sort(found.begin(), found.end());
   return found;
@@ -233,10 +306,13 @@ std::vector<std::uint8_t> NearFaces::soundWhenTurned(const std::vector<EdgeRef>&
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
     Scratch& own = scratch.local();
     const Quad& q = turned[i];
-    own.own = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
-    std::vector<Offence> found;
-    forEachBlock(mLevel, 1, [&](std::size_t) { search(edges[i], own, nullptr, found); });
-    sound[i] = found.empty();
+    own.triangles = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
+    own.offences.clear();
+    forEachBlock(mLevel, 1, [&](std::size_t) {
+      load(own, own.triangles);
+      search(edges[i], own, nullptr, own.offences);
+    });
+    sound[i] = own.offences.empty();
   });
   return sound;
 }

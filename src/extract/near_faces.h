@@ -7,6 +7,7 @@
 
 #include "extract/edge_set.h"
 #include "extract/face_tests.h"
+#include "extract/triangle_filters.h"
 #include "pdc/math/simd_level.h"
 
 namespace pdc::detail {
@@ -31,43 +32,57 @@ class NearFaces {
   /// \param farReaching the edges whose faces may leave the cells about them; sorted.
   NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching);
 
-  /// The offences of the triangles of `active`, which is sorted, against each other and against all others near them;
-  /// sorted. Runs in parallel.
-  [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active) const;
+  /// The offences of the triangles of `active` against each other and against all others near them; sorted. Runs in
+  /// parallel.
+  /// \param active sorted; all faces that changed since the last call are among them.
+  [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active);
 
-  struct Face {
-    EdgeRef edge;
-    std::uint64_t number;
-  };
-  /// The faces that may reach into a box of lattice space.
-  [[nodiscard]] std::vector<Face> facesAbout(const Vec3d& low, const Vec3d& high) const;
-  /// Whether facesAbout and findOffences still find the edge's face everywhere if a corner of it lies there. For affine
-  /// maps.
-  [[nodiscard]] bool finds(const EdgeRef& e, const Vec3f& corner) const;
+  /// Replaces `out` by the edges whose faces may reach into a box of world space; for affine maps.
+  void facesAbout(const Box& box, std::vector<EdgeRef>& out) const;
+  /// How far, as distance() has it, corners of the edge's face may go from the low end of the edge so that facesAbout
+  /// and findOffences still find the face everywhere; negative if it is none of the far-reaching ones.
+  [[nodiscard]] double farReach(const EdgeRef& e) const;
+  /// From a lattice point to a place in lattice space, along the axis where it is largest.
+  [[nodiscard]] static double distance(const Vec3d& from, const Vec3d& place);
   /// Where a corner is in lattice space; for affine maps.
   [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
 
   /// For each of some edges whose faces are quads: whether there is no offence if its quad is `turned[i]` instead,
-  /// which has the same corners. Runs in parallel.
+  /// which has the same corners. No face has changed since the last findOffences. Runs in parallel.
   [[nodiscard]] std::vector<std::uint8_t> soundWhenTurned(const std::vector<EdgeRef>& edges,
                                                           const std::vector<Quad>& turned) const;
 
  private:
   struct Scratch;
+  struct LatticeBox {
+    Vec3d low, high;
+  };
+  /// A far-reaching face, with those that may reach into a box of world space.
+  struct FarFace {
+    EdgeRef edge;
+    Box now;                         ///< The box of the face itself.
+    Box likely;                      ///< The box for which the lists hold: it will hardly ever leave it.
+    std::vector<std::uint32_t> far;  ///< Numbers of far-reaching faces.
+    std::vector<EdgeRef> others;
+  };
 
   [[nodiscard]] double reachOf(const EdgeRef& e) const;
-  /// Of a corner from a lattice point, along the axis where it is largest, in lattice units.
-  [[nodiscard]] double distance(const Coord& at, const Vec3f& corner) const;
-  [[nodiscard]] std::pair<Vec3d, Vec3d> latticeBox(const EdgeRef& e, const Scratch& own) const;
+  [[nodiscard]] LatticeBox latticeBox(const EdgeRef& e, const Box& box) const;
+  [[nodiscard]] LatticeBox latticeBox(const Box& box) const;
+  void facesAbout(const LatticeBox& box, std::vector<EdgeRef>& out) const;
+  void addFacesOf(std::int32_t block, const LatticeBox& box, std::vector<EdgeRef>& out) const;
+  [[nodiscard]] bool staysApart(const EdgeRef& e, const Box& box) const;
+  void updateBox(FarFace& face, Scratch& own) const;
+  void list(FarFace& face, std::vector<EdgeRef>& edges) const;
+  [[nodiscard]] const FarFace* listed(const EdgeRef& e) const;
   template <typename Visit>
-  void forEachNear(const Vec3d& low, const Vec3d& high, Visit&& visit) const;
-  template <typename Visit>
-  bool forEachIn(std::int32_t block, const Vec3d& low, const Vec3d& high, Visit& visit) const;
+  void forEachNear(const EdgeRef& e, Scratch& own, Visit&& visit) const;
+  void load(Scratch& own, const std::vector<Triangle>& triangles) const;
   /// Appends the offences of the face in `own`.
   /// \param foundFrom offences of a face of these that comes before are left to it. Null: one offence is enough.
   void search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom, std::vector<Offence>& out) const;
-  void compare(const EdgeRef& e, const Scratch& own, std::size_t i, const EdgeRef& other, const Triangle& t,
-               const TriangleCorners& corners, std::vector<Offence>& out) const;
+  void compare(const EdgeRef& e, const Scratch& own, const EdgeRef& other, const Quad& quad,
+               const std::array<Vec3f, 4>& corners, std::vector<Offence>& out) const;
 
   const FaceTests& mTests;
   const SimdLevel mLevel = bestSimdLevel();
@@ -77,6 +92,7 @@ class NearFaces {
   /// By block that has some: how far they reach from the low ends of their edges along an axis, in lattice units.
   std::vector<double> mReach;
   double mLargestReach;
+  std::vector<FarFace> mFarFaces;  ///< By number in mFar; empty where they are too many to list.
 };
 
 }  // namespace pdc::detail

@@ -2,12 +2,6 @@
 
 namespace pdc::detail {
 
-std::uint64_t QuadRings::face(const EdgeRef& e) const {
-  const BlockTopology& b = mTopology.blocks[e.block];
-  const std::uint64_t before = (std::uint64_t{1} << (8 * e.y() + e.z())) - 1;
-  return b.firstQuad + b.quadsBefore[kBlockSize * e.axis() + e.x()] + bitCount(b.edges[e.axis()].word[e.x()] & before);
-}
-
 std::array<CellRef, 4> QuadRings::cells(const EdgeRef& e) const {
   const BlockTopology& own = mTopology.blocks[e.block];
   const int u = (e.axis() + 1) % 3, v = (e.axis() + 2) % 3;

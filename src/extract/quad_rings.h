@@ -28,13 +28,22 @@ class QuadRings {
   QuadRings(const SurfaceBlocks& blocks, const Topology& topology) : mBlocks(blocks), mTopology(topology) {}
 
   /// Number of the edge's quad.
-  [[nodiscard]] std::uint64_t face(const EdgeRef& e) const;
+  [[nodiscard]] std::uint64_t face(const EdgeRef& e) const {
+    const BlockTopology& b = mTopology.blocks[e.block];
+    const std::uint64_t before = (std::uint64_t{1} << (8 * e.y() + e.z())) - 1;
+    return b.firstQuad + b.quadsBefore[kBlockSize * e.axis() + e.x()] +
+           bitCount(b.edges[e.axis()].word[e.x()] & before);
+  }
   /// Cells about the edge, in ring order.
   [[nodiscard]] std::array<CellRef, 4> cells(const EdgeRef& e) const;
   /// Vertices of the edge's quad, in ring order.
   [[nodiscard]] Quad vertices(const EdgeRef& e) const;
   /// Lattice coordinates of the edge's low end.
   [[nodiscard]] Coord low(const EdgeRef& e) const;
+  [[nodiscard]] Vec3d lowEnd(const EdgeRef& e) const {
+    const Coord at = low(e);
+    return {double(at[0]), double(at[1]), double(at[2])};
+  }
   /// Whether the low end is inside.
   [[nodiscard]] bool lowInside(const EdgeRef& e) const;
 
@@ -49,6 +58,7 @@ class QuadRings {
 
   [[nodiscard]] int code(const CellRef& c) const { return cellCode(mBlocks.signs[c.block], c.x, c.y, c.z); }
   [[nodiscard]] const BlockTopology& block(std::int32_t i) const { return mTopology.blocks[i]; }
+  [[nodiscard]] std::uint64_t faceCount() const { return mTopology.quadCount; }
   [[nodiscard]] std::size_t blockCount() const { return mBlocks.coords.size(); }
   [[nodiscard]] const Coord& blockCoord(std::int32_t i) const { return mBlocks.coords[i]; }
 

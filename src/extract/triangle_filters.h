@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 
 #include "math/float4.h"
 #include "mesh/triangle_pair.h"
@@ -8,6 +11,39 @@
 namespace pdc::detail {
 
 // Quick looks that tell most pairs of triangles apart before the exact test.
+
+/// On which sides of a plane some points are.
+struct Sides {
+  std::uint8_t bits;  ///< 1: above, where orient3d is 1; 2: under; 4: not known.
+
+  friend Sides operator|(Sides a, Sides b) { return {static_cast<std::uint8_t>(a.bits | b.bits)}; }
+  friend Sides operator&(Sides a, std::uint8_t mask) { return {static_cast<std::uint8_t>(a.bits & mask)}; }
+  /// Whether all are on one side for certain.
+  [[nodiscard]] bool same() const { return bits == 1 || bits == 2; }
+  /// Of a single point, as orient3d has it; 0 if it is not known, or there is none.
+  [[nodiscard]] int sign() const { return (bits & 1) - (bits >> 1 & 1); }
+};
+
+inline Sides all(const std::array<Sides, 4>& s) { return s[0] | s[1] | s[2] | s[3]; }
+inline Sides all(const std::array<Sides, 3>& s) { return s[0] | s[1] | s[2]; }
+/// Of the first three.
+template <std::size_t n>
+TriangleSides::Signs signs(const std::array<Sides, n>& s) {
+  return {s[0].sign(), s[1].sign(), s[2].sign()};
+}
+
+/// Four points, such as the corners of a quad, or of a triangle with the last one twice; in double precision, which
+/// holds them exactly.
+struct Points {
+  std::array<double, 4> x, y, z;
+
+  template <std::size_t n>
+  explicit Points(const std::array<Vec3f, n>& p)
+      : x{double{p[0].x}, double{p[1].x}, double{p[2].x}, double{p[n - 1].x}},
+        y{double{p[0].y}, double{p[1].y}, double{p[2].y}, double{p[n - 1].y}},
+        z{double{p[0].z}, double{p[1].z}, double{p[2].z}, double{p[n - 1].z}} {}
+};
+inline Quad quadOf(const Triangle& t) { return {t[0], t[1], t[2], t[2]}; }
 
 /// The plane of a triangle, for a quick look at what lies to one side of it.
 class TrianglePlane {
@@ -21,23 +57,46 @@ class TrianglePlane {
     mDoubt = kRounding * kRounding * dot(u, u) * dot(v, v);
   }
 
-  /// True if other triangles, with these corners, meet this one in no more than a vertex or an edge that they share:
-  /// all corners that are not its own are strictly on one side. False says nothing.
-  template <std::size_t n>
-  [[nodiscard]] bool clears(const std::array<std::uint32_t, n>& vertices, const std::array<Vec3f, n>& corners) const {
-    int above = 0, under = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t v = vertices[i];
-      if (v == mVertices[0] || v == mVertices[1] || v == mVertices[2]) continue;
-      const Vec3d w = vecCast<double>(corners[i]) - mOrigin;
-      const double side = dot(w, mNormal);
-      if (!(side * side > mDoubt * dot(w, w))) return false;
-      ++(side > 0 ? above : under);
-    }
-    return (above == 0) != (under == 0);
+  /// The sides of some points.
+  [[nodiscard]] std::array<Sides, 4> sides(const Points& points) const { return packed(sideBits(points)); }
+  /// The sides of the corners of another face; none of those that are own corners too.
+  [[nodiscard]] std::array<Sides, 4> sides(const Quad& vertices, const Points& corners) const {
+    Int4 v;
+    std::memcpy(&v, vertices.data(), sizeof v);
+    const auto own = [&](int i) { return v == static_cast<std::int32_t>(mVertices[i]); };
+    return packed(sideBits(corners) & ~(own(0) | own(1) | own(2)));
   }
 
  private:
+  using Double4 = double __attribute__((vector_size(32)));
+  using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+  /// The bits of Sides, as far as they are certain.
+  [[nodiscard]] Int4 sideBits(const Points& points) const {
+    Double4 x, y, z;
+    std::memcpy(&x, points.x.data(), sizeof x);
+    std::memcpy(&y, points.y.data(), sizeof y);
+    std::memcpy(&z, points.z.data(), sizeof z);
+    x -= mOrigin.x;
+    y -= mOrigin.y;
+    z -= mOrigin.z;
+    const Double4 side = x * mNormal.x + y * mNormal.y + z * mNormal.z;
+    const auto sure = side * side > (x * x + y * y + z * z) * mDoubt;
+    // Each bit is in the lower half of its number, where AVX2 has no other way to narrow it.
+    using Int8 = std::int32_t __attribute__((vector_size(32)));
+    const auto bits = reinterpret_cast<Int8>((sure & (side > 0.0) & 1) | (sure & (side < 0.0) & 2) | (~sure & 4));
+    return __builtin_shufflevector(bits, bits, 0, 2, 4, 6);
+  }
+  [[nodiscard]] static std::array<Sides, 4> packed(Int4 bits) {
+    using Byte16 = std::uint8_t __attribute__((vector_size(16)));
+    const auto bytes = reinterpret_cast<Byte16>(bits);
+    const auto low = __builtin_shufflevector(bytes, bytes, 0, 4, 8, 12);
+    std::array<Sides, 4> sides;
+    static_assert(sizeof low == sizeof sides);
+    std::memcpy(&sides, &low, sizeof sides);
+    return sides;
+  }
+
   Triangle mVertices;
   Vec3d mOrigin, mNormal;
   double mDoubt;
@@ -47,6 +106,7 @@ class TrianglePlane {
 struct Box {
   Float4 low, high;
 
+  Box() = default;
   template <std::size_t n>
   explicit Box(const std::array<Vec3f, n>& corners) : low(float4(corners[0])), high(low) {
     for (std::size_t i = 1; i < n; ++i) add(float4(corners[i]));
@@ -55,10 +115,42 @@ struct Box {
     low = p < low ? p : low;
     high = p > high ? p : high;
   }
-  [[nodiscard]] bool apartFrom(const Box& b) const {
-    const auto gap = (low > b.high) | (b.low > high);
-    return (gap[0] | gap[1] | gap[2]) != 0;
+  void add(const Box& b) {
+    add(b.low);
+    add(b.high);
+  }
+  [[nodiscard]] bool contains(const Box& b) const { return !anyOf((b.low < low) | (b.high > high)); }
+  [[nodiscard]] bool apartFrom(const Box& b) const { return anyOf((low > b.high) | (b.low > high)); }
+
+ private:
+  template <typename Mask>
+  static bool anyOf(Mask mask) {
+    using Halves = long long __attribute__((vector_size(16)));
+    const auto halves = reinterpret_cast<Halves>(mask);
+    return (halves[0] | halves[1]) != 0;
   }
 };
+
+/// A triangle of a mesh with what the quick looks need to know of it.
+struct FilteredTriangle {
+  FilteredTriangle(const Triangle& v, const TriangleCorners& c)
+      : vertices(v), corners(c), points(c), plane(v, c), box(c) {}
+
+  Triangle vertices;
+  TriangleCorners corners;
+  Points points;
+  TrianglePlane plane;
+  Box box;
+};
+
+/// trianglesIntersect() for those.
+[[nodiscard]] inline bool trianglesIntersect(const FilteredTriangle& a, const FilteredTriangle& b) {
+  if (a.box.apartFrom(b.box)) return false;
+  const std::array<Sides, 4> bSides = a.plane.sides(quadOf(b.vertices), b.points);
+  if (all(bSides).same()) return false;
+  const std::array<Sides, 4> aSides = b.plane.sides(quadOf(a.vertices), a.points);
+  if (all(aSides).same()) return false;
+  return trianglesIntersect(a.corners, a.vertices, b.corners, b.vertices, {signs(aSides), signs(bSides)});
+}
 
 }  // namespace pdc::detail

@@ -8,7 +8,7 @@
 namespace pdc::detail {
 namespace {
 
-using Signs = std::array<int, 3>;
+using Signs = TriangleSides::Signs;
 /// Corners in double precision, which holds them exactly.
 using Corners = std::array<Vec3d, 3>;
 
@@ -23,8 +23,14 @@ Corners rotated(const TriangleCorners& t, int first) {
   return {vecCast<double>(t[first]), vecCast<double>(t[next(first)]), vecCast<double>(t[next(next(first))])};
 }
 
+Signs rotated(const Signs& s, int first) { return {s[first], s[next(first)], s[next(next(first))]}; }
+
 int sideOf(const Corners& t, const Vec3d& p) { return orient3d(t[0], t[1], t[2], p); }
-Signs sidesOf(const Corners& t, const Corners& of) { return {sideOf(t, of[0]), sideOf(t, of[1]), sideOf(t, of[2])}; }
+/// The side of a point that may be known already; 0: it is not.
+int sideOf(const Corners& t, const Vec3d& p, int known) { return known != 0 ? known : sideOf(t, p); }
+Signs sidesOf(const Corners& t, const Corners& of, const Signs& known) {
+  return {sideOf(t, of[0], known[0]), sideOf(t, of[1], known[1]), sideOf(t, of[2], known[2])};
+}
 
 /// Whether no two of the signs are opposite.
 bool agree(int a, int b, int c) { return std::min({a, b, c}) >= 0 || std::max({a, b, c}) <= 0; }
@@ -77,10 +83,10 @@ bool foldedOver(const Corners& t, const Vec3d& s) {
 }
 
 /// Triangles that share the corner a[0] = b[0].
-bool meetBeyondCorner(const Corners& a, const Corners& b) {
-  const int a1 = sideOf(b, a[1]), a2 = sideOf(b, a[2]);
+bool meetBeyondCorner(const Corners& a, const Corners& b, const TriangleSides& known) {
+  const int a1 = sideOf(b, a[1], known.a[1]), a2 = sideOf(b, a[2], known.a[2]);
   if (a1 * a2 > 0) return false;
-  const int b1 = sideOf(a, b[1]), b2 = sideOf(a, b[2]);
+  const int b1 = sideOf(a, b[1], known.b[1]), b2 = sideOf(a, b[2], known.b[2]);
   if (b1 * b2 > 0) return false;
   if (a1 == 0 && a2 == 0) {
     const PlaneView view(a);
@@ -98,12 +104,28 @@ bool meetInPlane(const Corners& a, const Corners& b) {
   return !view.edgeOfSeparates(a, b[0], b[1], b[2]) && !view.edgeOfSeparates(b, a[0], a[1], a[2]);
 }
 
+/// The corner that has a side for itself.
+int loneCorner(const Signs& s) { return s[1] == s[2] ? 0 : s[0] == s[2] ? 1 : 2; }
+
+/// Triangles each of which has corners strictly on both sides of the other's plane, and none in it. Each leaves an
+/// interval on the line where the planes cross, between the two edges at its lone corner. Each interval must begin
+/// before the other ends (Guigue and Devillers 2003, Fast and Robust Triangle-Triangle Overlap Test).
+bool intervalsMeet(const Corners& a, const Corners& b, const Signs& as, const Signs& bs) {
+  const int i = loneCorner(as), k = loneCorner(bs);
+  int iStart = next(i), iEnd = next(iStart), kStart = next(k), kEnd = next(kStart);
+  // As if both lone corners were before the other's plane.
+  if (as[i] < 0) std::swap(kStart, kEnd);
+  if (bs[k] < 0) std::swap(iStart, iEnd);
+  return orient3d(a[i], a[iStart], b[k], b[kStart]) <= 0 && orient3d(a[i], a[iEnd], b[k], b[kEnd]) >= 0;
+}
+
 /// Triangles that share no corner.
-bool meetAnywhere(const Corners& a, const Corners& b) {
-  const Signs as = sidesOf(b, a);
+bool meetAnywhere(const Corners& a, const Corners& b, const TriangleSides& known) {
+  const Signs as = sidesOf(b, a, known.a);
   if (as[0] != 0 && as[1] == as[0] && as[2] == as[0]) return false;
-  const Signs bs = sidesOf(a, b);
+  const Signs bs = sidesOf(a, b, known.b);
   if (bs[0] != 0 && bs[1] == bs[0] && bs[2] == bs[0]) return false;
+  if (as[0] * as[1] * as[2] * bs[0] * bs[1] * bs[2] != 0) return intervalsMeet(a, b, as, bs);
   if (as == Signs{}) return meetInPlane(a, b);
 
   // On the line where the planes cross, both triangles leave an interval. Intervals meet where one has an end in the
@@ -122,7 +144,7 @@ bool meetAnywhere(const Corners& a, const Corners& b) {
 bool isDegenerate(const TriangleCorners& t) { return collinear(t[0], t[1], t[2]); }
 
 bool trianglesIntersect(const TriangleCorners& a, const Triangle& aVertices, const TriangleCorners& b,
-                        const Triangle& bVertices) {
+                        const Triangle& bVertices, const TriangleSides& known) {
   // For each corner of a the corner of b at the same vertex, or none.
   constexpr int kNone = -1;
   std::array<int, 3> match{kNone, kNone, kNone};
@@ -133,11 +155,14 @@ bool trianglesIntersect(const TriangleCorners& a, const Triangle& aVertices, con
     (match[i] == kNone ? notShared : lastShared) = i;
     shared += match[i] != kNone;
   }
-  if (shared == 0) return !boxesApart(a, b) && meetAnywhere(widened(a), widened(b));
-  if (shared == 1) return meetBeyondCorner(rotated(a, lastShared), rotated(b, match[lastShared]));
+  if (shared == 0) return !boxesApart(a, b) && meetAnywhere(widened(a), widened(b), known);
+  if (shared == 1) {
+    const int i = lastShared, j = match[i];
+    return meetBeyondCorner(rotated(a, i), rotated(b, j), {rotated(known.a, i), rotated(known.b, j)});
+  }
   // b's corner off the edge: the indices of b's corners add up to 3.
-  const int p = next(notShared), q = next(p);
-  return foldedOver(rotated(a, p), vecCast<double>(b[3 - match[p] - match[q]]));
+  const int p = next(notShared), q = next(p), off = 3 - match[p] - match[q];
+  return known.b[off] == 0 && foldedOver(rotated(a, p), vecCast<double>(b[off]));
 }
 
 }  // namespace pdc::detail

@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include "pdc/math/predicates.h"
+
 namespace pdc::detail {
 namespace {
 
@@ -187,6 +189,20 @@ TEST(TrianglePair, AgreesWithTheDefinition) {
   for (std::size_t shared = 0; shared < 4; ++shared) {
     EXPECT_GT(seen[shared][1], 200) << shared;
     EXPECT_GT(seen[shared][0], shared < 3 ? 200 : -1) << shared;
+  }
+}
+
+TEST(TrianglePair, KnownSidesChangeNothing) {
+  std::mt19937 random(13);
+  for (int round = 0; round < 12000; ++round) {
+    const Pair pair = randomPair(random, 2 + round % 4);
+    TriangleSides known;
+    for (int i = 0; i < 3; ++i) {
+      if (random() % 2 == 0) known.a[i] = orient3d(pair.b[0], pair.b[1], pair.b[2], pair.a[i]);
+      if (random() % 2 == 0) known.b[i] = orient3d(pair.a[0], pair.a[1], pair.a[2], pair.b[i]);
+    }
+    ASSERT_EQ(trianglesIntersect(pair.a, pair.aVertices, pair.b, pair.bVertices, known), pair.intersects())
+        << "round " << round;
   }
 }
 
