@@ -37,12 +37,13 @@ std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
   return ends;
 }
 
-/// The most vertices that a window has.
-std::size_t largestWindow(const Topology& topology, const std::vector<std::size_t>& ends) {
-  std::uint64_t most = 0, first = 0;
+/// The most vertices that two windows in a row have.
+std::size_t longestRun(const Topology& topology, const std::vector<std::size_t>& ends) {
+  std::uint64_t most = 0, previous = 0, first = 0;
   for (const std::size_t end : ends) {
     const std::uint64_t next = end < topology.blocks.size() ? topology.blocks[end].firstVertex : topology.vertexCount;
-    most = std::max(most, next - first);
+    most = std::max(most, next - previous);
+    previous = first;
     first = next;
   }
   return most;
@@ -70,10 +71,10 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
   BlockProgress progress(monitor, "contour", blocks.coords.size());
 
   const std::vector<std::size_t> ends = windowEnds(blocks.coords);
-  // Faces reach back into the window before.
-  VertexErrors errors(2 * largestWindow(topology, ends));
-  std::size_t begin = 0;
+  VertexErrors errors(longestRun(topology, ends));
+  std::size_t previous = 0, begin = 0;
   for (const std::size_t end : ends) {
+    errors.moveOn(topology.blocks[previous].firstVertex);  // Faces reach back into the window before.
     const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &errors, nullptr};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
       monitor.throwIfStopped();
@@ -88,6 +89,7 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
       for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors, mine);
       progress.advance(range.size());
     });
+    previous = begin;
     begin = end;
   }
   if (doubts != nullptr) {

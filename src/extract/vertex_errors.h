@@ -1,11 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
 #include "pdc/math/sym_mat3.h"
-#include "pdc/mesh/mesh.h"
+#include "pdc/mesh/buffer.h"
 
 namespace pdc::detail {
 
@@ -22,15 +21,23 @@ struct VertexError {
 class VertexErrors {
  public:
   /// \param longest run of vertices whose errors are needed at once.
-  explicit VertexErrors(std::size_t longest)
-      : mErrors(std::bit_ceil(std::max<std::size_t>(longest, 1))), mPlaces(mErrors.size() - 1) {}
+  explicit VertexErrors(std::size_t longest) : mErrors(std::max<std::size_t>(longest, 1)) {}
 
-  [[nodiscard]] VertexError& operator[](std::uint64_t vertex) { return mErrors[vertex & mPlaces]; }
-  [[nodiscard]] const VertexError& operator[](std::uint64_t vertex) const { return mErrors[vertex & mPlaces]; }
+  /// From now on `first` is the first of the run.
+  void moveOn(std::uint64_t first) {
+    while (first - mBase >= mErrors.size()) mBase += mErrors.size();
+  }
+  [[nodiscard]] VertexError& operator[](std::uint64_t vertex) { return mErrors[place(vertex)]; }
+  [[nodiscard]] const VertexError& operator[](std::uint64_t vertex) const { return mErrors[place(vertex)]; }
 
  private:
+  [[nodiscard]] std::uint64_t place(std::uint64_t vertex) const {
+    const std::uint64_t i = vertex - mBase;
+    return std::min(i, i - mErrors.size());  // The latter is huge before the ring's end.
+  }
+
   Buffer<VertexError> mErrors;
-  std::uint64_t mPlaces;  ///< Their number, a power of two, less one.
+  std::uint64_t mBase = 0;  ///< The vertex at place 0; the run does not begin before it.
 };
 
 }  // namespace pdc::detail
