@@ -21,7 +21,11 @@ namespace {
 constexpr std::array<float, 9> kShare{1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0};
 constexpr int kDrawnIn = static_cast<int>(kShare.size()) - 1;
 
-/// Where there are more offences, faces are folded by noise: no single move helps, and trying them takes long.
+/// How often vertices are put forward; with one more pass nothing gets better.
+constexpr int kForwardPasses = 2;
+
+/// Where there are more offences, or vertices off their places, faces are folded by noise: no single move helps, and
+/// trying them takes long.
 constexpr std::size_t kFewOffences = 200, kFacesPerOffence = 20;
 
 class Certifier {
@@ -40,6 +44,7 @@ class Certifier {
 
   CertifyCounts run(const Doubts& doubts, const Monitor& monitor) {
     std::transform(mLoose.begin(), mLoose.end(), mFree.begin(), [](const LooseVertex& v) { return v.place; });
+    mWanted = mFree;
     settle(doubts.quads);
     std::vector<EdgeRef> active = quadsAt(mLoose.size(), [](std::size_t i) { return i; });
     NearFaces near(mFaces, active);
@@ -48,14 +53,16 @@ class Certifier {
       monitor.throwIfStopped();
       active = answer(near, near.findOffences(active), stuck);
     }
+    for (int pass = 0; pass < kForwardPasses; ++pass) putForward(near);
     // What could not be answered may have been by what moved later.
     sortUnique(stuck);
     mCounts.uncertified = near.findOffences(stuck).size();
     mCounts.forcedDiagonals += doubts.forcedDiagonals;
     mCounts.fans = mFans.size();
     for (std::size_t i = 0; i < mLoose.size(); ++i) {
-      mCounts.drawnIn += mDrawn[i] == kDrawnIn;
-      mCounts.shortened += mDrawn[i] < kDrawnIn && (mDrawn[i] > 0 || mCreaseMoves.moved(i));
+      const bool drawnIn = mLoose[i].place == mLoose[i].safe;
+      mCounts.drawnIn += drawnIn;
+      mCounts.shortened += !drawnIn && mLoose[i].place != mWanted[i];
     }
     mCounts.addedBoundaryEdges = mFans.replaceQuads();
     return mCounts;
@@ -116,10 +123,14 @@ class Certifier {
     return changed;
   }
 
+  [[nodiscard]] bool foldedByNoise(std::size_t offences) const {
+    return offences > std::max(kFewOffences, mMesh.quads.size() / kFacesPerOffence);
+  }
+
   /// Moves vertices on creases to where their faces offend less, each a few times at most. Takes the offences beside
   /// them out of the list: they wait for the next round. \returns the faces that changed and those that wait.
   std::vector<EdgeRef> moveAlongCreases(const NearFaces& near, std::vector<Offence>& offences) {
-    if (offences.size() > std::max(kFewOffences, mMesh.quads.size() / kFacesPerOffence)) return {};
+    if (foldedByNoise(offences.size())) return {};
     const std::vector<CreaseMove> moves =
         mCreaseMoves.find(near, offences, [this](std::uint32_t v) { return movable(v); });
     for (const CreaseMove& m : moves) {
@@ -141,6 +152,35 @@ class Certifier {
       return waits;
     });
     return changed;
+  }
+
+  /// Puts loose vertices on creases to better places, where their faces meet none now that all others have come to
+  /// rest; those that get into each other's way go back.
+  void putForward(NearFaces& near) {
+    std::vector<std::size_t> vertices;
+    for (std::size_t i = 0; i < mLoose.size(); ++i)
+      if (mLoose[i].place != mWanted[i]) vertices.push_back(i);
+    if (foldedByNoise(vertices.size())) return;
+    std::vector<CreaseMove> moves = mCreaseMoves.findBetter(near, vertices, mWanted);
+    for (CreaseMove& m : moves) {
+      const Vec3f before = mLoose[m.loose].place;
+      place(mLoose[m.loose], m.place);
+      m.place = before;
+    }
+    std::vector<EdgeRef> changed = quadsAt(moves.size(), [&](std::size_t i) { return moves[i].loose; });
+    while (!changed.empty()) {
+      std::vector<std::uint32_t> corners;
+      for (const Offence& o : near.findOffences(changed))
+        forEachCorner(o, [&](std::uint32_t v) { corners.push_back(v); });
+      sortUnique(corners);
+      const auto back = std::stable_partition(moves.begin(), moves.end(), [&](const CreaseMove& m) {
+        return !std::binary_search(corners.begin(), corners.end(), mLoose[m.loose].vertex);
+      });
+      for (auto m = back; m != moves.end(); ++m) place(mLoose[m->loose], m->place);
+      changed = quadsAt(static_cast<std::size_t>(moves.end() - back),
+                        [&](std::size_t i) { return back[static_cast<std::ptrdiff_t>(i)].loose; });
+      moves.erase(back, moves.end());
+    }
   }
 
   /// Turns the diagonals of offending quads where that leaves no offence, at most once each. \returns those turned,
@@ -230,6 +270,7 @@ class Certifier {
   Fans mFans;
   std::vector<LooseVertex> mLoose;
   FaceTests mFaces;
+  std::vector<Vec3f> mWanted;        ///< By loose vertex: where its quadric wants it.
   std::vector<Vec3f> mFree;          ///< By loose vertex: where it is drawn back from.
   std::vector<std::uint8_t> mDrawn;  ///< By loose vertex: by how many steps it was drawn back from there.
   CreaseMoves mCreaseMoves;

@@ -3,9 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "extract/gather.h"
 #include "extract/vertex_trial.h"
 
 namespace pdc::detail {
@@ -17,8 +19,9 @@ namespace {
 /// Steps along a crease and within one of its sides, in lattice units.
 constexpr std::array<float, 5> kAlong{0.03F, 0.08F, 0.16F, 0.3F, 0.5F};
 constexpr std::array<float, 8> kWithin{0.01F, 0.02F, 0.03F, 0.05F, 0.07F, 0.1F, 0.14F, 0.2F};
-/// Shares of the way from the safe place.
+/// Shares of the way from the safe place; and finer ones, for vertices whose neighbours have come to rest.
 constexpr std::array<float, 4> kStraight{0.98F, 0.94F, 0.85F, 0.6F};
+constexpr std::array<float, 8> kForward{0.99F, 0.97F, 0.95F, 0.92F, 0.88F, 0.8F, 0.7F, 0.5F};
 /// How often a vertex moves.
 constexpr std::uint8_t kMostMoves = 3;
 /// Where faces meet more others than this, no single move helps.
@@ -29,8 +32,8 @@ Vec3f scaledTo(const Vec3d& v, double wanted) {
   return l > 0 ? vecCast<float>(v * (wanted / l)) : Vec3f{};
 }
 
-/// Places to try for a vertex, the dearest last; its own first. In lattice units from the centre of its cell.
-std::vector<Vec3f> placesToTry(const LooseVertex& v, const Mat3d& M) {
+/// A vertex's place, in lattice units from the centre of its cell, and others along its crease.
+std::vector<Vec3f> placesAlong(const LooseVertex& v, const Mat3d& M) {
   std::vector<Vec3f> places{v.place};
   const Mat3d toLattice = inverse(M);
   const auto& n = v.creaseNormals;
@@ -40,9 +43,15 @@ std::vector<Vec3f> placesToTry(const LooseVertex& v, const Mat3d& M) {
         const Vec3f along = scaledTo(toLattice * cross(vecCast<double>(n[i]), vecCast<double>(n[j])), double{step});
         if (along != Vec3f{}) places.insert(places.end(), {v.place + along, v.place - along});
       }
+  return places;
+}
+
+/// Places to try for a vertex, the dearest last; its own first.
+std::vector<Vec3f> placesToTry(const LooseVertex& v, const Mat3d& M) {
+  std::vector<Vec3f> places = placesAlong(v, M);
   const Vec3d way = vecCast<double>(v.safe - v.place);
   for (const float step : kWithin)
-    for (const Vec3f& normal : n) {
+    for (const Vec3f& normal : v.creaseNormals) {
       const Vec3d m = M.transposed() * vecCast<double>(normal);
       if (!(dot(m, m) > 0)) break;
       const Vec3d within = way - m * (dot(m, way) / dot(m, m));
@@ -73,6 +82,37 @@ Found findPlace(const NearFaces& near, const FaceTests& tests, const LooseVertex
     if (offences < best.offences) best = {offences, i, places[i]};
   }
   return best;
+}
+
+/// The largest distance of a place from the planes that meet in a vertex's crease, in world units.
+double distanceFromPlanes(const LooseVertex& v, const Mat3d& M, const Vec3f& onCrease, const Vec3f& place) {
+  const Vec3d offset = M * vecCast<double>(place - onCrease);
+  double most = 0;
+  for (const Vec3f& n : v.creaseNormals) most = std::max(most, std::abs(dot(vecCast<double>(n), offset)));
+  return most;
+}
+
+/// The place nearest to the planes of the vertex's crease where its faces have no offence; its own if there is none.
+Vec3f findBetterPlace(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex,
+                      const Vec3f& wantedPlace) {
+  const Mat3d M = tests.map().jacobian({});
+  LooseVertex wanted = vertex;
+  wanted.place = wantedPlace;
+  std::vector<Vec3f> all = placesToTry(wanted, M);
+  for (const Vec3f& p : placesAlong(wanted, M))
+    for (const float share : kForward) all.push_back(vertex.safe + (p - vertex.safe) * share);
+  const double now = distanceFromPlanes(vertex, M, wantedPlace, vertex.place);
+  std::vector<std::pair<double, Vec3f>> places;
+  for (const Vec3f& p : all)
+    if (const double d = distanceFromPlanes(vertex, M, wantedPlace, p); d < now) places.emplace_back(d, p);
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Vec3f> world;
+  for (const auto& p : places) world.push_back(tests.worldPosition(vertex, p.second));
+  world.push_back(tests.worldPosition(vertex, vertex.place));
+  VertexTrial trial(near, tests, vertex, world);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (trial.finds(i) && trial.countOffences(i, 1) == 0) return places[i].second;
+  return vertex.place;
 }
 
 /// Whether the crease turns by more than 41°. Being drawn off a flatter one costs little.
@@ -127,6 +167,17 @@ std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vect
     }
   }
   return moves;
+}
+
+std::vector<CreaseMove> CreaseMoves::findBetter(const NearFaces& near, const std::vector<std::size_t>& vertices,
+                                                const std::vector<Vec3f>& wanted) const {
+  if (!mTests.map().affine()) return {};
+  return gather<CreaseMove>(vertices.size(), [&](std::size_t i, std::vector<CreaseMove>& out) {
+    const LooseVertex& vertex = mLoose[vertices[i]];
+    if (!isSharp(vertex)) return;
+    const Vec3f place = findBetterPlace(near, mTests, vertex, wanted[vertices[i]]);
+    if (place != vertex.place) out.push_back({vertices[i], place});
+  });
 }
 
 }  // namespace pdc::detail

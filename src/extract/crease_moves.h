@@ -28,8 +28,12 @@ class CreaseMoves {
   /// affine. Runs in parallel.
   [[nodiscard]] std::vector<CreaseMove> find(const NearFaces& near, const std::vector<Offence>& offences,
                                              const std::function<std::ptrdiff_t(std::uint32_t)>& movable);
-  /// Whether a loose vertex has been moved.
-  [[nodiscard]] bool moved(std::size_t loose) const { return mMoves[loose] > 0; }
+  /// Looks for better places for vertices on creases that are not where they are wanted.
+  /// \param vertices their numbers among the loose ones. \param wanted by loose vertex: where its quadric wants it.
+  /// \returns by ascending number the places where their faces have no offence if no other vertex moves, nearer to the
+  /// planes of their creases than where they are; none where the map is not affine. Runs in parallel.
+  [[nodiscard]] std::vector<CreaseMove> findBetter(const NearFaces& near, const std::vector<std::size_t>& vertices,
+                                                   const std::vector<Vec3f>& wanted) const;
 
  private:
   const FaceTests& mTests;
