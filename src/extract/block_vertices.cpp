@@ -12,6 +12,7 @@
 #include "math/float_lanes.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_batch.h"
+#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -198,9 +199,9 @@ struct BlockVertexSolver::Scratch {
     samples.size = 0;
     forEachEdge(patch, block.edges, [&](int e, int edge) {
       const int k = samples.size++;
-      sampleAxis[k] = edgeAxis(e);
-      samples.position[k] = lowEnd(e) - Vec3d{0.5, 0.5, 0.5};
-      samples.position[k][edgeAxis(e)] += double(crossings.t(edge));
+      sampleAxis[k] = kCellEdge[e].axis;
+      samples.position[k] = cornerPlace(kCellEdge[e].low) - Vec3d{0.5, 0.5, 0.5};
+      samples.position[k][sampleAxis[k]] += double(crossings.t(edge));
       samples.row[k] = vecCast<double>(crossings.plane(edge));
       if (noise == nullptr) return;
       const double own = noise->sigma[edge];

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "math/float_lanes.h"
 #include "extract/vertex_solver.h"
+#include "math/float_lanes.h"
 #include "pdc/math/simd_level.h"
 #include "pdc/sample/hermite_source.h"
 

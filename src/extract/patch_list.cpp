@@ -1,5 +1,8 @@
 #include "extract/patch_list.h"
 
+#include <array>
+#include <bit>
+
 namespace pdc::detail {
 namespace {
 

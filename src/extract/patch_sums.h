@@ -7,9 +7,9 @@
 #include <span>
 
 #include "extract/crossing_planes.h"
-#include "extract/patch_list.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_lanes.h"
+#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 
@@ -36,13 +36,15 @@ struct PatchEdgeCode {
 
 /// By edge of the cell; the last, of no edge, leads to the first row, which is zero.
 inline constexpr auto kPatchEdgeCode = [] {
-  std::array<PatchEdgeCode, kEdges + 1> code{};
-  for (int e = 0; e < kEdges; ++e) {
-    code[e] = {static_cast<std::uint32_t>(kEdgeSlot[e]), 1 + PatchEdgeCode::along(edgeAxis(e))};
+  constexpr std::size_t n = kCellEdge.size();
+  std::array<PatchEdgeCode, n + 1> code{};
+  for (std::size_t e = 0; e < n; ++e) {
+    const CellEdge& edge = kCellEdge[e];
+    code[e] = {static_cast<std::uint32_t>(edge.slot), 1 + PatchEdgeCode::along(edge.axis)};
     for (int axis = 0; axis < 3; ++axis)
-      if ((edgeLowCorner(e) >> axis & 1) != 0) code[e].flags |= PatchEdgeCode::far(axis);
+      if ((edge.low >> axis & 1) != 0) code[e].flags |= PatchEdgeCode::far(axis);
   }
-  code[kEdges] = {EdgeIndex::kNoSlot, 0};
+  code[n] = {EdgeIndex::kNoSlot, 0};
   return code;
 }();
 
@@ -82,7 +84,7 @@ class PatchSummer {
 
   /// Takes the first of a patch's edges out.
   static std::uint32_t take(const std::uint16_t* number, std::uint32_t& bits) {
-    const PatchEdgeCode& code = kPatchEdgeCode[std::countr_zero(bits | 1u << kEdges)];
+    const PatchEdgeCode& code = kPatchEdgeCode[std::countr_zero(bits | 1u << kCellEdge.size())];
     bits &= bits - 1;
     return number[code.slot] + code.flags;
   }

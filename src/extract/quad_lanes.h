@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "math/float_lanes.h"
 #include "extract/vertex_errors.h"
+#include "math/float_lanes.h"
 #include "math/lane_loops.h"
 
 namespace pdc::detail {

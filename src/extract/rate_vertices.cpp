@@ -13,6 +13,7 @@
 #include "extract/vertex_solver.h"
 #include "mesh/faces.h"
 #include "pdc/math/solvers.h"
+#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -134,8 +135,8 @@ class BlockRater {
   void addCrossings(const SurfacePatch& patch, const EdgeIndex& edges, const Add& add) const {
     const Coord cell = cellOf(patch);
     forEachEdge(patch, edges, [&](int e, int i) {
-      Vec3d point = Vec3d{double(cell[0]), double(cell[1]), double(cell[2])} + lowEnd(e);
-      point[edgeAxis(e)] += mHermite.t[i];
+      Vec3d point = Vec3d{double(cell[0]), double(cell[1]), double(cell[2])} + cornerPlace(kCellEdge[e].low);
+      point[kCellEdge[e].axis] += mHermite.t[i];
       add(Vec3d{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]}, point);
     });
   }

@@ -7,6 +7,7 @@
 
 #include "math/lane_loops.h"
 #include "sample/kinks.h"
+#include "sample/patch_edges.h"
 #include "sample/surface_sides.h"
 
 namespace pdc::detail {
@@ -47,30 +48,8 @@ double leastShare(double noise) { return std::min(0.1, 10 * noise * noise); }
 /// What is expected of a sample's normal.
 double normalNoise(double noise) { return kNormalNoise * noise; }
 
-Coord cellOf(const SurfacePatch& patch) { return {patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7}; }
-
-/// An edge of a cell.
-struct CellEdge {
-  int axis, low, high;  ///< Its ends among the cell's corners, x + 2y + 4z.
-  int slot;             ///< In EdgeIndex, from that of the cell's lowest corner along x.
-};
-
-/// By number in SurfacePatch.
-constexpr auto kCellEdge = [] {
-  std::array<CellEdge, 12> edges{};
-  for (int e = 0; e < 12; ++e) {
-    const int axis = e >> 2;
-    std::array<int, 3> low{};
-    low[(axis + 1) % 3] = e & 1;
-    low[(axis + 2) % 3] = e >> 1 & 1;
-    const int corner = low[0] + 2 * low[1] + 4 * low[2];
-    edges[e] = {axis, corner, corner | 1 << axis, EdgeIndex::slot(axis, low[0], low[1], low[2])};
-  }
-  return edges;
-}();
-
 /// A corner of a cell, from its centre, in lattice units.
-Vec3d cornerPlace(int corner) { return {(corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5}; }
+Vec3d fromCenter(int corner) { return cornerPlace(corner) - Vec3d{0.5, 0.5, 0.5}; }
 
 /// Which corners of a cell are inside, a bit each.
 unsigned cornersInside(const BlockSigns& signs, const Coord& cell) {
@@ -80,11 +59,6 @@ unsigned cornersInside(const BlockSigns& signs, const Coord& cell) {
     inside |= (row & 1) << c | (row >> 1 & 1) << (c + 4);
   }
   return inside;
-}
-
-/// EdgeIndex's numbers from the lowest edge of a cell on.
-const std::uint16_t* numbersOf(const SampledBlock& block, const SurfacePatch& patch) {
-  return block.edges.numbers() + EdgeIndex::slot(0, patch.cell >> 6, patch.cell >> 3 & 7, patch.cell & 7);
 }
 
 /// Whether the normals of all of a block's crossings agree, as most blocks' do. Not all that do are found.
@@ -105,7 +79,7 @@ bool allEven(const SampledBlock& block) {
 }
 
 bool even(const SampledBlock& block, const SurfacePatch& patch) {
-  const std::uint16_t* number = numbersOf(block, patch);
+  const std::uint16_t* number = block.edges.numbers() + slotOf(patch);
   const HermiteBlock& h = block.hermite;
   const auto normal = [&](unsigned bits) {
     const int i = number[kCellEdge[std::countr_zero(bits)].slot];
@@ -130,7 +104,7 @@ using AtCorners = std::array<double, kCorners>;
 struct CellCorners {
   explicit CellCorners(const Mat3d& M) {
     for (int i = 0; i < kCorners; ++i) {
-      const Vec3d p = M * cornerPlace(i);
+      const Vec3d p = M * fromCenter(i);
       x[i] = p.x;
       y[i] = p.y;
       z[i] = p.z;
@@ -200,7 +174,7 @@ class PlaneFinder {
   }
 
   void gatherCrossings(const SurfacePatch& patch) {
-    const std::uint16_t* number = numbersOf(mBlock, patch);
+    const std::uint16_t* number = mBlock.edges.numbers() + slotOf(patch);
     const unsigned inside = cornersInside(mBlock.signs, mCell);
     mCrossingCount = 0;
     mMassPoint = {};
@@ -209,7 +183,7 @@ class PlaneFinder {
       const double t = mBlock.hermite.t[number[e.slot]];
       const bool up = (inside >> e.low & 1) != 0;
       mCrossing[mCrossingCount++] = {up ? e.low : e.high, up ? e.high : e.low, up ? t : 1 - t};
-      Vec3d at = cornerPlace(e.low);
+      Vec3d at = fromCenter(e.low);
       at[e.axis] += t;
       mMassPoint += mModel.M * at;
     }
