@@ -22,7 +22,11 @@ class BufferTest : public testing::Test {
 };
 
 TEST_F(BufferTest, MemoryOfAFreedArrayServesTheNextOfAboutItsSize) {
-  const void* first = Buffer<char>(20 * kMebibyte).data();
+  const void* first = nullptr;
+  {
+    const Buffer<char> array(20 * kMebibyte);
+    first = array.data();
+  }
   EXPECT_EQ(keptMemory(), 20 * kMebibyte);
   const Buffer<float> next(5 * kMebibyte - 1000);
   EXPECT_EQ(static_cast<const void*>(next.data()), first);
