@@ -190,6 +190,7 @@ inline bool NearFaces::staysApart(const EdgeRef& e, const Box& box) const {
   own.add(float4(vecCast<float>(mTests.map().position(end))));
   end[e.axis()] += 1;
   own.add(float4(vecCast<float>(mTests.map().position(end))));
+  own.addRounding();
   return own.apartFrom(box);
 }
 

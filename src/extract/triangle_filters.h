@@ -119,6 +119,12 @@ struct Box {
     add(b.low);
     add(b.high);
   }
+  /// Takes in what rounding may have put beyond it.
+  void addRounding() {
+    constexpr float kTwoUlps = 2.5e-7F;
+    low -= (low < 0.0F ? -low : low) * kTwoUlps;
+    high += (high < 0.0F ? -high : high) * kTwoUlps;
+  }
   [[nodiscard]] bool contains(const Box& b) const { return !anyOf((b.low < low) | (b.high > high)); }
   [[nodiscard]] bool apartFrom(const Box& b) const { return anyOf((low > b.high) | (b.low > high)); }
 

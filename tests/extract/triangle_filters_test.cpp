@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "math/lane_loops.h"
@@ -72,6 +75,23 @@ TEST(TriangleFilters, ChangeNoAnswer) {
   }
   EXPECT_GT(seen[0], 2000);
   EXPECT_GT(seen[1], 2000);
+}
+
+TEST(TriangleFilters, ABoxWithRoundingHoldsTheNextFloats) {
+  RandomPoints point;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (int round = 0; round < 1000; ++round) {
+    const TriangleCorners t = point.triangle();
+    Box box(t);
+    box.addRounding();
+    for (const Vec3f& p : t)
+      for (int i = 0; i < 3; ++i)
+        for (const float to : {-kInfinity, kInfinity}) {
+          Vec3f next = p;
+          next[i] = std::nextafter(p[i], to);
+          ASSERT_TRUE(p[i] == 0 || box.contains(Box(std::array{next}))) << "round " << round;
+        }
+  }
 }
 
 }  // namespace
