@@ -114,13 +114,15 @@ class TileFaces {
     std::array<Row, n * n> background, other;  // Tiles of the background's side, and those of the other one.
     unsigned any = 0;
     for (int r = 0; r < n * n; ++r) {
-      unsigned differs = 0;
-      for (int z = 0; z < n; ++z)
-        differs |= unsigned{mReader.inside(node.getTable()[n * r + z].getValue()) != mBackground} << z;
       const auto leaves = node.getChildMask().template getWord<std::uint64_t>(static_cast<openvdb::Index>(r / 4));
-      const auto tiles = static_cast<unsigned>(~leaves >> n * (r % 4));
-      other[r] = static_cast<Row>(differs & tiles);
-      background[r] = static_cast<Row>(~differs & tiles);
+      const unsigned tiles = static_cast<unsigned>(~leaves >> n * (r % 4)) & 0xFFFF;
+      unsigned differs = 0;
+      for (unsigned w = tiles; w != 0; w &= w - 1) {
+        const int z = std::countr_zero(w);
+        differs |= unsigned{mReader.inside(node.getTable()[n * r + z].getValue()) != mBackground} << z;
+      }
+      other[r] = static_cast<Row>(differs);
+      background[r] = static_cast<Row>(tiles & ~differs);
       any |= other[r];
     }
     if (any == 0) return;
