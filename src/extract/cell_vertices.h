@@ -40,12 +40,12 @@ class CellVertices {
     for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
       const std::uint64_t word = b.cells.word[x];
       // Of a cell that may lie outside.
-      std::uint32_t* first = &mVertex[0] + index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
+      const int first = index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
       auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
       const bool all = (dy | dz) == 0;
       for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w);
-        std::uint32_t& to = first[bit + (bit >> 3)];
+        std::uint32_t& to = mVertex[first + bit + (bit >> 3)];
         to = all ? number++ : number + static_cast<std::uint32_t>(bitCount(word & ((std::uint64_t{1} << bit) - 1)));
       }
     }
