@@ -9,6 +9,7 @@
 #include "pdc/monitor.h"
 #include "pdc/sample/hermite_source.h"
 #include "sample/block_index.h"
+#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 
@@ -47,14 +48,6 @@ struct BlockTopology {
   /// What special cells add to the number of cells before: vertices beyond the first of earlier ones, and of this one.
   [[nodiscard]] std::uint64_t specialOffset(int cell, int edge) const;
 };
-
-/// The corner signs of a cell of a block, as a code for kCellTable.
-constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
-  const auto pair = [&](int dx, int dy) { return signs.row[kBlockPoints * (x + dx) + y + dy] >> z & 3; };
-  const int r00 = pair(0, 0), r10 = pair(1, 0), r01 = pair(0, 1), r11 = pair(1, 1);
-  return (r00 & 1) | (r10 & 1) << 1 | (r01 & 1) << 2 | (r11 & 1) << 3 | (r00 >> 1) << 4 | (r10 >> 1) << 5 |
-         (r01 >> 1) << 6 | (r11 >> 1) << 7;
-}
 
 /// The topology of all blocks, with vertices and quads numbered through in block order.
 struct Topology {

@@ -51,16 +51,6 @@ double normalNoise(double noise) { return kNormalNoise * noise; }
 /// A corner of a cell, from its centre, in lattice units.
 Vec3d fromCenter(int corner) { return cornerPlace(corner) - Vec3d{0.5, 0.5, 0.5}; }
 
-/// Which corners of a cell are inside, a bit each.
-unsigned cornersInside(const BlockSigns& signs, const Coord& cell) {
-  unsigned inside = 0;
-  for (int c = 0; c < 4; ++c) {
-    const unsigned row = signs.row[kBlockPoints * (cell[0] + (c & 1)) + cell[1] + (c >> 1)] >> cell[2];
-    inside |= (row & 1) << c | (row >> 1 & 1) << (c + 4);
-  }
-  return inside;
-}
-
 /// Whether the normals of all of a block's crossings agree, as most blocks' do. Not all that do are found.
 bool allEven(const SampledBlock& block) {
   const HermiteBlock& h = block.hermite;
@@ -175,7 +165,7 @@ class PlaneFinder {
 
   void gatherCrossings(const SurfacePatch& patch) {
     const std::uint16_t* number = mBlock.edges.numbers() + slotOf(patch);
-    const unsigned inside = cornersInside(mBlock.signs, mCell);
+    const auto inside = static_cast<unsigned>(cellCode(mBlock.signs, mCell[0], mCell[1], mCell[2]));
     mCrossingCount = 0;
     mMassPoint = {};
     for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {

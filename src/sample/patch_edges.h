@@ -32,6 +32,14 @@ inline constexpr auto kCellEdge = [] {
 /// A corner of a cell, from its lowest one.
 constexpr Vec3d cornerPlace(int corner) { return {double(corner & 1), double(corner >> 1 & 1), double(corner >> 2)}; }
 
+/// The corners of a cell of a block that are inside, a bit each.
+constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
+  const auto pair = [&](int dx, int dy) { return signs.row[kBlockPoints * (x + dx) + y + dy] >> z & 3; };
+  const int r00 = pair(0, 0), r10 = pair(1, 0), r01 = pair(0, 1), r11 = pair(1, 1);
+  return (r00 & 1) | (r10 & 1) << 1 | (r01 & 1) << 2 | (r11 & 1) << 3 | (r00 >> 1) << 4 | (r10 >> 1) << 5 |
+         (r01 >> 1) << 6 | (r11 >> 1) << 7;
+}
+
 /// The lowest corner of a patch's cell, in its block.
 constexpr Coord cellOf(const SurfacePatch& p) { return {p.cell >> 6, p.cell >> 3 & 7, p.cell & 7}; }
 
