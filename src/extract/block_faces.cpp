@@ -22,124 +22,139 @@ float volumeDoubt(const LatticeMap& map, const Coord& block) {
 
 }  // namespace
 
-/// The quads of a block, sixteen at a time. Must be compiled into a function of a SimdLevel.
+/// The quads of a block: each step for all of them, so that they need not wait for each other. Must be compiled into a
+/// function of a SimdLevel.
 class BlockFaceWriter::Block {
  public:
-  Block(const BlockFaceWriter& writer, std::size_t block, const CellVertices& vertices, const VertexErrors& errors,
-        Doubts* doubts, Quad* quads)
+  Block(const BlockFaceWriter& writer, std::size_t block, const VertexErrors& errors, Doubts* doubts)
       : mWriter(writer),
+        mOwn(writer.mTopology.blocks[block]),
         mBlock(block),
-        mSigns(writer.mBlocks.signs[block]),
-        mMirrored(writer.mMap.mirrored()),
-        mVertices(vertices),
+        mVertices(writer.mTopology, mOwn),
         mErrors(errors),
         mDoubts(doubts),
-        mQuads(quads),
+        mQuads(writer.mQuads + mOwn.firstQuad),
         mDoubt(doubts != nullptr ? volumeDoubt(writer.mMap, writer.mBlocks.coords[block]) : 0.0F) {}
 
   void run() {
-    addAxis<0>();
-    addAxis<1>();
-    addAxis<2>();
-    if (mUsed != 0) flush();
+    listEdges();
+    if (mVertices.allSimple()) {
+      findVertices<0>();
+      findVertices<1>();
+      findVertices<2>();
+    } else {
+      const QuadRings rings(mWriter.mBlocks, mWriter.mTopology);
+      for (int i = 0; i < mBegin[3]; ++i) {
+        const Quad ring = rings.vertices(edge(i));
+        for (int k = 0; k < 4; ++k) mVertex[k][i] = ring[k];
+      }
+    }
+    for (int first = 0; first < mBegin[3]; first += kLanes) addSixteen(first, std::min(mBegin[3] - first, kLanes));
   }
 
  private:
-  template <int axis>
-  void addAxis() {
-    const CellMask& edges = mWriter.mTopology.blocks[mBlock].edges[axis];
-    for (int x = 0; x < kBlockSize; ++x)
-      for (std::uint64_t w = edges.word[x]; w != 0; w &= w - 1) {
-        add<axis>(x, std::countr_zero(w));
-        if (mUsed == kLanes) flush();
+  static constexpr int kMostQuads = 3 * kBlockSize * kBlockSize * kBlockSize;
+
+  void listEdges() {
+    // Written at once, and overwritten where there are fewer: how many there are cannot be foreseen.
+    constexpr int kAtOnce = 4;
+    int n = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      mBegin[axis] = n;
+      for (int x = 0; x < kBlockSize; ++x) {
+        std::uint64_t word = mOwn.edges[axis].word[x];
+        const int end = n + std::popcount(word);
+        do {
+          for (int i = 0; i < kAtOnce; ++i, word &= word - 1)
+            mEdge[n + i] = static_cast<std::uint16_t>(512 * axis + 64 * x + std::countr_zero(word));
+          n += kAtOnce;
+        } while (n < end);
+        n = end;
       }
+    }
+    mBegin[3] = n;
   }
 
   template <int axis>
-  void add(int x, int bit) {
+  void findVertices() {
     constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
-    const int y = bit >> 3, z = bit & 7;
-    mEdge[mUsed] = static_cast<std::uint16_t>(512 * axis + 64 * x + bit);
-    mReversed[mUsed] = mSigns.inside(x, y, z) == mMirrored ? 1 : 0;
-    mLanes.axis[mUsed] = axis;
-    if (mVertices.allSimple()) {
-      const std::uint32_t* at = mVertices.at(x, y, z);
-      for (int k = 0; k < 4; ++k) mLanes.vertex[k][mUsed] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
-    } else {
-      const Quad ring = QuadRings(mWriter.mBlocks, mWriter.mTopology).vertices(edge(mUsed));
-      for (int k = 0; k < 4; ++k) mLanes.vertex[k][mUsed] = ring[k];
+    for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
+      const std::uint32_t* at = mVertices.at(mEdge[i] & 511);
+      for (int k = 0; k < 4; ++k) mVertex[k][i] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
     }
-    ++mUsed;
   }
 
-  [[nodiscard]] EdgeRef edge(int lane) const { return {static_cast<std::int32_t>(mBlock), mEdge[lane]}; }
+  [[nodiscard]] EdgeRef edge(int i) const { return {static_cast<std::int32_t>(mBlock), mEdge[i]}; }
 
-  void flush() {
+  /// Or fewer: `used`.
+  void addSixteen(int first, int used) {
     for (int k = 0; k < 4; ++k) {
-      std::uint32_t* const vertex = mLanes.vertex[k];
-      std::fill(vertex + mUsed, vertex + kLanes, vertex[0]);
+      std::uint32_t* const vertex = &mVertex[k][first];
+      std::fill(vertex + used, vertex + kLanes, vertex[0]);
+      alignas(64) std::uint32_t place[kLanes];
+      forEachLane([&place, vertex, ring = mErrors.ring()](int i) { place[i] = ring.place(vertex[i]); });
+      const VertexError* errors = mErrors.data();
       for (int i = 0; i < kLanes; i += 4)
-        mLanes.set(k, i,
-                   {&mErrors[vertex[i]], &mErrors[vertex[i + 1]], &mErrors[vertex[i + 2]], &mErrors[vertex[i + 3]]});
+        mLanes.set(k, i, {errors + place[i], errors + place[i + 1], errors + place[i + 2], errors + place[i + 3]});
     }
+    for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] >> 9;
     chooseDiagonals(mLanes);
     if (mDoubts != nullptr) {
       findPassing(mLanes, mDoubt);
-      for (int i = 0; i < mUsed; ++i)
-        if ((mLanes.passes[i] & 1) == 0) noteDoubt(i);
+      for (int i = 0; i < used; ++i)
+        if ((mLanes.passes[i] & 1) == 0) noteDoubt(first + i, i);
     }
-    write();
+    write(first, used);
   }
 
   /// The diagonal of a lane's quad does not pass.
-  void noteDoubt(int lane) {
+  void noteDoubt(int i, int lane) {
     if ((mLanes.passes[lane] & 2) != 0) {
       mLanes.first[lane] ^= 1;
       ++mDoubts->forcedDiagonals;
     } else {
-      mDoubts->quads.push_back(edge(lane));
+      mDoubts->quads.push_back(edge(i));
     }
   }
 
   /// Quads start where their diagonal does, and go round as their orientation wants.
-  void write() {
-    alignas(64) std::uint32_t quad[4][kLanes];
-    forEachLane([&](int i) {
-      const bool first = mLanes.first[i] != 0, reversed = mReversed[i] != 0;
-      const auto& v = mLanes.vertex;
-      const std::uint32_t start = first ? v[0][i] : v[1][i], next = first ? v[1][i] : v[2][i],
-                          across = first ? v[2][i] : v[3][i], last = first ? v[3][i] : v[0][i];
-      quad[0][i] = start;
-      quad[1][i] = reversed ? last : next;
-      quad[2][i] = across;
-      quad[3][i] = reversed ? next : last;
+  void write(int from, int used) {
+    const BlockSigns& signs = mWriter.mBlocks.signs[mBlock];
+    const unsigned mirrored = mWriter.mMap.mirrored() ? 1 : 0;
+    alignas(64) std::uint32_t reversed[kLanes], quad[4][kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      const unsigned cell = mEdge[from + i] & 511, row = (cell >> 3) + (cell >> 6);
+      reversed[i] = (signs.row[row] >> (cell & 7) & 1u) ^ mirrored ^ 1;
+    }
+    forEachLane([&, first = mLanes.first, v0 = &mVertex[0][from], v1 = &mVertex[1][from], v2 = &mVertex[2][from],
+                 v3 = &mVertex[3][from]](int i) {
+      const bool same = first[i] != 0, back = reversed[i] != 0;
+      const std::uint32_t next = same ? v1[i] : v2[i], last = same ? v3[i] : v0[i];
+      quad[0][i] = same ? v0[i] : v1[i];
+      quad[1][i] = back ? last : next;
+      quad[2][i] = same ? v2[i] : v3[i];
+      quad[3][i] = back ? next : last;
     });
-    for (int i = 0; i < mUsed; ++i) mQuads[i] = {quad[0][i], quad[1][i], quad[2][i], quad[3][i]};
-    mQuads += mUsed;
-    mUsed = 0;
+    for (int i = 0; i < used; ++i) mQuads[from + i] = {quad[0][i], quad[1][i], quad[2][i], quad[3][i]};
   }
 
   const BlockFaceWriter& mWriter;
+  const BlockTopology& mOwn;
   const std::size_t mBlock;
-  const BlockSigns& mSigns;
-  const bool mMirrored;
-  const CellVertices& mVertices;
+  const CellVertices mVertices;
   const VertexErrors& mErrors;
   Doubts* const mDoubts;
-  Quad* mQuads;
+  Quad* const mQuads;
   const float mDoubt;
-  int mUsed = 0;
   QuadLanes mLanes;
-  alignas(64) std::array<std::uint32_t, kLanes> mReversed;
-  std::array<std::uint16_t, kLanes> mEdge;
+  std::array<int, 4> mBegin{};  ///< Per axis, the first of its edges in the lists.
+  // Not cleared: a block uses little of them.
+  std::array<std::uint16_t, kMostQuads + kLanes> mEdge;
+  std::array<std::array<std::uint32_t, kMostQuads + kLanes>, 4> mVertex;
 };
 
 void BlockFaceWriter::run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const {
-  forEachBlock(mLevel, 1, [&](std::size_t) {
-    const BlockTopology& own = mTopology.blocks[block];
-    const CellVertices vertices(mTopology, own);
-    Block(*this, block, vertices, errors, doubts, mQuads + own.firstQuad).run();
-  });
+  forEachBlock(mLevel, 1, [&](std::size_t) { Block(*this, block, errors, doubts).run(); });
 }
 
 }  // namespace pdc::detail

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "extract/cell_rounding.h"
@@ -54,14 +53,13 @@ struct BlockState {
   const EdgeIndex& edges;
   const CellMetric& metric;
   Vec3d origin;
-  double cellHalfSize;  ///< Of the part of a cell whose points stay in the cell when they are rounded.
+  double cellHalfSize;  ///< Of the part of a cell whose points stay in the cell when they are rounded; if promised.
   const VertexOutput& out;
   VertexCounts& counts;
 };
 
 /// Sixteen patches, one per lane; those beyond the block's last repeat it.
 struct PatchLanes {
-  PatchSums sums;
   alignas(64) std::uint32_t cell[kLanes];
   NormalEquationsLanes<float> system;  ///< About the mass points.
   SolutionLanes<float> step;
@@ -81,6 +79,7 @@ struct BlockVertexSolver::Scratch {
         solver(sigma, halfSize),
         level(l),
         linear(map.affine() ? map.jacobian({}) : Mat3d{}),
+        commonMetric(blockMetric(map, {})),
         exactNormals(source.exactNormals()),
         noise(source.knowsNoise() ? std::make_unique<PlaneNoise>() : nullptr) {
     samples.noisy = noise != nullptr;
@@ -93,52 +92,50 @@ struct BlockVertexSolver::Scratch {
     if (!solver.batched()) {
       for (std::size_t i = 0; i < count; ++i) solveAlone(block, i);
     } else {
+      if (noise != nullptr) {
+        sums.add<true>(patches, crossings, block.edges, matrixCast(block.metric.G));
+      } else {
+        sums.add<false>(patches, crossings, block.edges, {});
+      }
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
-        sum(block, patches.patches().subspan(first, static_cast<std::size_t>(used)));
-        solve(block, sigmaOf);
+        setUp(first, sigmaOf);
+        solveLdlt(std::span<const NormalEquationsLanes<float>>(&lanes.system, 1),
+                  std::span<SolutionLanes<float>>(&lanes.step, 1), level);
+        place(block);
         write(block, first, used);
-        for (int lane = 0; lane < used; ++lane)
-          if (mustSolveAlone(block, first + lane, lane)) {
-            solveAlone(block, first + lane);
-          } else {
-            block.counts.outOfCell += lanes.reach[lane] > 0.5F;
-          }
+        solveSomeAlone(block, first, used);
       }
     }
     if (block.out.normals != nullptr)
       for (std::size_t i = 0; i < count; ++i) block.out.normals[block.firstVertex + i] = meanNormal(block, patches[i]);
   }
 
-  void sum(const BlockState& block, std::span<const SurfacePatch> some) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes.cell[lane] = some[std::min(lane, some.size() - 1)].cell;
-    if (noise != nullptr) {
-      PatchSummer<true>(crossings, block.edges, matrixCast(block.metric.G)).run(some, lanes.sums);
-    } else {
-      PatchSummer<false>(crossings, block.edges, {}).run(some, lanes.sums);
-    }
-  }
-
   /// About its mass point a patch's right-hand side is small where the surface is flat, and so is what rounding does to
   /// the solution.
   /// \param sigmaOf the patch's σn² over that in Sigma_n, from its Σrrᵀ.
   template <typename SigmaOf>
-  void solve(const BlockState& block, const SigmaOf& sigmaOf) {
+  void setUp(std::size_t first, const SigmaOf& sigmaOf) {
     const SymMat3<float> S = Sigma_n;
+    const PatchSumLanes& sum = sums.lanes(first);
+    PatchLanes& l = lanes;
+    const auto some = patches.patches().subspan(first);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) l.cell[lane] = some[std::min(lane, some.size() - 1)].cell;
+    forEachLane([&](int i) {
+      const float n = sum.weight(i);
+      const Vec3f mass = sum.place(i) * (1.0F / n);
+      const SymMat3<float> A = sum.A(i);
+      l.mass.set(i, mass);
+      l.system.b.set(i, sum.b(i) - A * mass);
+      l.system.A.set(i, A + S * (n * sigmaOf(A, n)));
+    });
+  }
+
+  void place(const BlockState& block) {
     PatchLanes& l = lanes;
     const bool promised = block.out.doubts != nullptr;
     const auto inCell = static_cast<float>(block.cellHalfSize);
     const float snapped = promised ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
-    forEachLane([&](int i) {
-      const float n = l.sums.weight[i];
-      const Vec3f mass = l.sums.place.get(i) * (1.0F / n);
-      const SymMat3<float> A = l.sums.A.get(i);
-      l.mass.set(i, mass);
-      l.system.b.set(i, l.sums.b.get(i) - A * mass);
-      l.system.A.set(i, A + S * (n * sigmaOf(A, n)));
-    });
-    solveLdlt(std::span<const NormalEquationsLanes<float>>(&l.system, 1), std::span<SolutionLanes<float>>(&l.step, 1),
-              level);
     forEachLane([&](int i) {
       const Vec3f v = l.mass.get(i) - Vec3f{0.5F, 0.5F, 0.5F} + l.step.x.get(i);
       const SymMat3<float> A = l.system.A.get(i);
@@ -167,15 +164,19 @@ struct BlockVertexSolver::Scratch {
 
   /// Vertices of a block are neighbours in memory.
   void write(const BlockState& block, std::size_t first, int used) {
+    const PatchLanes& l = lanes;
     const std::uint64_t vertex = block.firstVertex + first;
     alignas(64) float positions[kLanes][4];
-    alignas(64) VertexError errors[kLanes];
+    alignas(64) VertexError copy[kLanes];
+    VertexError* const whole = used == kLanes ? block.out.errors->run(vertex, kLanes) : nullptr;
+    VertexError* const errors = whole != nullptr ? whole : copy;
     for (int lane = 0; lane < kLanes; lane += 4) {
       for (int part = 0; part < 3; ++part)
-        transpose4(&lanes.error[4 * part][lane], kLanes, reinterpret_cast<float*>(&errors[lane]) + 4 * part, 12);
-      transpose4(&lanes.position[0][lane], kLanes, positions[lane], 4);
+        transpose4(&l.error[4 * part][lane], kLanes, reinterpret_cast<float*>(errors + lane) + 4 * part, 12);
+      transpose4(&l.position[0][lane], kLanes, positions[lane], 4);
     }
-    for (int lane = 0; lane < used; ++lane) (*block.out.errors)[vertex + lane] = errors[lane];
+    if (whole == nullptr)
+      for (int lane = 0; lane < used; ++lane) (*block.out.errors)[vertex + lane] = copy[lane];
     Vec3f* position = block.out.positions + vertex;
     if (map.affine()) {
       for (int lane = 0; lane < used; ++lane)
@@ -186,11 +187,29 @@ struct BlockVertexSolver::Scratch {
     }
   }
 
-  [[nodiscard]] bool mustSolveAlone(const BlockState& block, std::size_t i, int lane) const {
-    if (planes.find(i) != nullptr) return true;
+  /// Solves those of a batch in double that need it.
+  void solveSomeAlone(const BlockState& block, std::size_t first, int used) {
     const bool promised = block.out.doubts != nullptr;
-    const double limit = promised ? block.cellHalfSize + kSnap : solver.halfSize();
-    return lanes.step.solved[lane] == 0 || (promised && patches.strict(i)) || !(lanes.reach[lane] <= limit);
+    const auto limit = static_cast<float>(promised ? block.cellHalfSize + kSnap : solver.halfSize());
+    // In the lower half those beyond the limit or unsolved, in the upper one those outside their cells.
+    constexpr std::uint32_t kOutside = 1u << 16;
+    alignas(64) std::uint32_t count[kLanes];
+    forEachLane([&, reach = lanes.reach, solved = lanes.step.solved](int i) {
+      const std::uint32_t alone = unsigned(solved[i] == 0) | unsigned(!(reach[i] <= limit));
+      const std::uint32_t outside = reach[i] > 0.5F ? kOutside : 0;
+      count[i] = i < used ? (alone != 0 ? 1 : outside) : 0;
+    });
+    const std::uint32_t total = foldLanes(count, [](auto& a, const auto& b) { a += b; });
+    if (total % kOutside == 0 && planes.patches.empty() && !(promised && patches.anyStrict())) {
+      block.counts.outOfCell += total / kOutside;
+      return;
+    }
+    for (int lane = 0; lane < used; ++lane)
+      if (count[lane] == 1 || (promised && patches.strict(first + lane)) || planes.find(first + lane) != nullptr) {
+        solveAlone(block, first + lane);
+      } else {
+        block.counts.outOfCell += count[lane] / kOutside;
+      }
   }
 
   void solveAlone(const BlockState& block, std::size_t i) {
@@ -239,7 +258,8 @@ struct BlockVertexSolver::Scratch {
     } else {
       safe = VertexSolver(solver.sigma(), block.cellHalfSize).solve(samples, block.metric).x;
       const double fit = exactNormals ? 1 : kFit;  // Without noise nearer is better.
-      if (planeError(safe) <= fit * fit * planeError(x) + kFlatness * kFlatness) return vecCast<float>(safe);
+      if (planeError(samples, safe) <= fit * fit * planeError(samples, x) + kFlatness * kFlatness)
+        return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
     block.out.doubts->vertices.push_back(
@@ -263,7 +283,7 @@ struct BlockVertexSolver::Scratch {
     };
     if (!samples.features.empty()) {
       for (const FeaturePlanes::Plane& p : samples.features) add(vecCast<double>(p.row));
-    } else if (exactNormals && planeError(x) <= kExact * kExact) {
+    } else if (exactNormals && planeError(samples, x) <= kExact * kExact) {
       for (int i = 0; i < samples.size; ++i) add(samples.row[i]);
     }
     return normals;
@@ -279,23 +299,6 @@ struct BlockVertexSolver::Scratch {
       mean += p * (1.0 / samples.size);
     }
     return mean;
-  }
-
-  /// Mean squared distance to the planes that place the vertex, in voxels squared.
-  [[nodiscard]] double planeError(const Vec3d& x) const {
-    double sum = 0;
-    if (!samples.features.empty()) {
-      for (const FeaturePlanes::Plane& p : samples.features) {
-        const double distance = dot(vecCast<double>(p.row), x - vecCast<double>(p.point));
-        sum += distance * distance;
-      }
-      return sum / static_cast<double>(samples.features.size());
-    }
-    for (int i = 0; i < samples.size; ++i) {
-      const double distance = dot(samples.row[i], x - samples.position[i]);
-      sum += distance * distance;
-    }
-    return sum / samples.size;
   }
 
   static SymMat3<float> matrixCast(const SymMat3<double>& A) {
@@ -326,7 +329,8 @@ struct BlockVertexSolver::Scratch {
   const LatticeMap& map;
   const VertexSolver solver;
   const SimdLevel level;
-  const Mat3d linear;  ///< Of an affine map.
+  const Mat3d linear;             ///< Of an affine map.
+  const CellMetric commonMetric;  ///< Likewise.
   const bool exactNormals;
   /// Of one normal, in lattice units: σn² G; or zero, if crossings have their own, which are in their rows.
   SymMat3<float> Sigma_n;
@@ -334,6 +338,7 @@ struct BlockVertexSolver::Scratch {
   const std::unique_ptr<PlaneNoise> noise;  ///< Null: the source knows none.
   CrossingPlanes crossings;
   PatchList patches;
+  PatchSums sums;
   FeaturePlanes planes;
   std::vector<FeaturePlanes::Plane> features;  ///< Of the vertex being solved.
   PatchLanes lanes;
@@ -353,7 +358,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const BlockSigns& signs = blocks.signs[index];
   const EdgeIndex edges(signs);
   const Vec3d origin = blockOrigin(block);
-  const CellMetric metric = blockMetric(mSource.map(), origin);
+  const CellMetric metric = mSource.map().affine() ? mScratch->commonMetric : blockMetric(mSource.map(), origin);
   const SigmaNormal& sigma = mScratch->solver.sigma();
   mScratch->Sigma_n = Scratch::matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());
   Scratch& scratch = *mScratch;
@@ -375,7 +380,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
                          edges,
                          metric,
                          origin,
-                         cellHalfSize(mSource.map(), block),
+                         out.doubts != nullptr ? cellHalfSize(mSource.map(), block) : 0.5,
                          out,
                          counts};
   // Each way of choosing σn has a function of its own, small enough for the compiler to do its best.

@@ -9,6 +9,7 @@
 namespace pdc::detail {
 
 /// Numbers in the mesh of the vertices of a block's cells and of the cells one below it, where each has one at most.
+/// Should be compiled into a function of a SimdLevel.
 class CellVertices {
  public:
   CellVertices(const Topology& topology, const BlockTopology& own) {
@@ -27,33 +28,51 @@ class CellVertices {
   [[nodiscard]] bool allSimple() const { return mAllSimple; }
   /// Step from a cell to the next along an axis.
   static constexpr std::array<int, 3> kStep{kBlockPoints * kBlockPoints, kBlockPoints, 1};
-  /// From that of cell (x, y, z), each at least 0.
-  [[nodiscard]] const std::uint32_t* at(int x, int y, int z) const { return &mVertex[index(x, y, z)]; }
+  /// From that of the block's cell 64x + 8y + z.
+  [[nodiscard]] const std::uint32_t* at(int cell) const {
+    return &mVertex[index(0, 0, 0) + cell + (cell >> 3) + kBlockPoints * (cell >> 6)];
+  }
 
  private:
   static constexpr int index(int x, int y, int z) { return kStep[0] * (x + 1) + kStep[1] * (y + 1) + z + 1; }
 
   /// Adds the cells of a block at -(dx, dy, dz), or of these those in its last layer on each of these axes.
   void add(const BlockTopology& b, int dx, int dy, int dz) {
+    if ((dx | dy | dz) == 0) return addOwn(b);
     const std::uint64_t wanted =
         (dy != 0 ? std::uint64_t{0xFF} << 56 : ~std::uint64_t{0}) & (dz != 0 ? 0x8080808080808080 : ~std::uint64_t{0});
     for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
       const std::uint64_t word = b.cells.word[x];
       // Of a cell that may lie outside.
       const int first = index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
-      auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
-      const bool all = (dy | dz) == 0;
+      const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
       for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {
         const int bit = std::countr_zero(w);
-        std::uint32_t& to = mVertex[first + bit + (bit >> 3)];
-        to = all ? number++ : number + static_cast<std::uint32_t>(bitCount(word & ((std::uint64_t{1} << bit) - 1)));
+        const std::uint64_t before = word & ((std::uint64_t{1} << bit) - 1);
+        mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(std::popcount(before));
       }
     }
   }
 
+  void addOwn(const BlockTopology& b) {
+    // Written at once, and overwritten or not asked for where there are fewer: how many there are cannot be foreseen.
+    constexpr int kAtOnce = 8;
+    for (int x = 0; x < kBlockSize; ++x) {
+      const int first = index(x, 0, 0);
+      std::uint64_t w = b.cells.word[x];
+      const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
+      const int count = std::popcount(w);
+      for (int n = 0; n < count; n += kAtOnce)
+        for (int i = 0; i < kAtOnce; ++i, w &= w - 1) {
+          const int bit = std::countr_zero(w);
+          mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(n + i);
+        }
+    }
+  }
+
   bool mAllSimple;
-  // Not cleared: only cells that have a vertex are asked for.
-  std::array<std::uint32_t, kBlockPoints * kBlockPoints * kBlockPoints> mVertex;
+  // Not cleared: only cells that have a vertex are asked for. With room for what is written beyond the last.
+  std::array<std::uint32_t, kBlockPoints * kBlockPoints * kBlockPoints + kBlockPoints> mVertex;
 };
 
 }  // namespace pdc::detail

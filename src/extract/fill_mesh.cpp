@@ -6,17 +6,19 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "extract/block_faces.h"
+#include "extract/block_groups.h"
 #include "extract/block_progress.h"
 #include "extract/vertex_solver.h"
 
 namespace pdc::detail {
 namespace {
 
-/// Blocks per thread and window: enough that threads seldom wait for each other, few enough that two windows' vertices
-/// (about 64 a block, 48 bytes each) stay in a second-level cache.
-constexpr std::size_t kWindowBlocks = 256;
+/// Blocks per thread and window: enough that threads seldom wait for each other, few enough that what faces need of two
+/// windows' vertices (about 64 a block, 48 bytes each) stays in a second-level cache.
+constexpr std::size_t kWindowBlocks = 128;
 
 /// Room for the vertices that certifying may add, as a share of all: so that they do not move the rest.
 constexpr double kRoomForFans = 1.0 / 256;
@@ -49,6 +51,98 @@ std::size_t longestRun(const Topology& topology, const std::vector<std::size_t>&
   return most;
 }
 
+/// Fills the arrays of a mesh, which have their sizes, window by window.
+class MeshFiller {
+ public:
+  MeshFiller(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
+             const ContourOptions& options, const SigmaNormal& sigma, Mesh& mesh, bool promised, const Monitor& monitor,
+             SimdLevel level)
+      : mBlocks(blocks),
+        mTopology(topology),
+        mMonitor(monitor),
+        mPromised(promised),
+        mEnds(windowEnds(blocks.coords)),
+        mErrors(longestRun(topology, mEnds)),
+        mOut{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &mErrors, nullptr},
+        mFaces(blocks, topology, source.map(), mesh.quads.data(), level),
+        mSolvers(
+            [&source, sigma, level, halfSize = options.placement == Placement::kCell ? kCellHalfSize : kFreeHalfSize] {
+              return BlockVertexSolver(source, sigma, halfSize, level);
+            }),
+        mProgress(monitor, "contour", blocks.coords.size()) {}
+
+  VertexCounts run() {
+    std::size_t previous = 0, begin = 0;
+    for (const std::size_t end : mEnds) {
+      mErrors.moveOn(mTopology.blocks[previous].firstVertex);  // Faces reach back into the window before.
+      fillWindow(begin, end);
+      previous = begin;
+      begin = end;
+    }
+    VertexCounts total;
+    mCounts.combine_each([&](const VertexCounts& c) { total += c; });
+    return total;
+  }
+
+  void appendDoubts(Doubts& doubts) const {
+    for (const Doubts& d : mDoubts) doubts.append(d);
+    std::sort(doubts.vertices.begin(), doubts.vertices.end(),
+              [](const LooseVertex& a, const LooseVertex& b) { return a.vertex < b.vertex; });
+    std::sort(doubts.quads.begin(), doubts.quads.end());
+  }
+
+ private:
+  using FacelessBlocks = std::vector<std::size_t>;
+
+  void fillWindow(std::size_t begin, std::size_t end) {
+    BlockGroups groups(mTopology, begin, end);
+    tbb::enumerable_thread_specific<FacelessBlocks> waiting;
+    tbb::parallel_for(std::size_t{0}, groups.count(), [&](std::size_t) {
+      mMonitor.throwIfStopped();
+      fillGroup(groups.take(), groups, waiting.local());
+    });
+    FacelessBlocks rest;
+    for (const FacelessBlocks& some : waiting) rest.insert(rest.end(), some.begin(), some.end());
+    tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { mFaces.run(rest[i], mErrors, doubts()); });
+  }
+
+  /// Solves a group's vertices and writes the faces of those blocks, of it and of `faceless`, whose vertices are all
+  /// solved.
+  void fillGroup(const BlockGroups::Range& range, BlockGroups& groups, FacelessBlocks& faceless) {
+    BlockVertexSolver& solver = mSolvers.local();
+    VertexCounts& counts = mCounts.local();
+    VertexOutput out = mOut;
+    out.doubts = doubts();
+    for (std::size_t i = range.begin; i != range.end; ++i) {
+      solver.run(i, mBlocks, mTopology, out, counts);
+      faceless.push_back(i);
+    }
+    groups.setSolved(range.group);
+    std::erase_if(faceless, [&](std::size_t i) {
+      const bool ready = groups.hasItsVertices(i);
+      if (ready) mFaces.run(i, mErrors, out.doubts);
+      return ready;
+    });
+    mProgress.advance(range.end - range.begin);
+  }
+
+  /// The thread's own, or null.
+  [[nodiscard]] Doubts* doubts() { return mPromised ? &mDoubts.local() : nullptr; }
+
+  const SurfaceBlocks& mBlocks;
+  const Topology& mTopology;
+  const Monitor& mMonitor;
+  const bool mPromised;
+  const std::vector<std::size_t> mEnds;  ///< Of windows.
+  VertexErrors mErrors;
+  const VertexOutput mOut;
+  const BlockFaceWriter mFaces;
+  tbb::enumerable_thread_specific<BlockVertexSolver> mSolvers;
+  tbb::enumerable_thread_specific<Doubts> mDoubts;
+  tbb::combinable<VertexCounts> mCounts;
+  BlockProgress mProgress;
+};
+
 }  // namespace
 
 VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
@@ -60,47 +154,13 @@ VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, 
   mesh.positions.resize(topology.vertexCount);
   if (options.normals) mesh.normals.resize(topology.vertexCount);
   mesh.quads.resize(topology.quadCount);
-  const double halfSize = options.placement == Placement::kCell ? kCellHalfSize : kFreeHalfSize;
   const SigmaNormal sigma =
       options.sigmaNormal ? SigmaNormal(*options.sigmaNormal) : SigmaNormal::fromData(source, blocks, monitor);
-  tbb::enumerable_thread_specific<BlockVertexSolver> solvers(
-      [&] { return BlockVertexSolver(source, sigma, halfSize, level); });
-  tbb::enumerable_thread_specific<Doubts> found;
-  tbb::combinable<VertexCounts> counts;
-  const BlockFaceWriter faces(blocks, topology, source.map(), mesh.quads.data(), level);
-  BlockProgress progress(monitor, "contour", blocks.coords.size());
-
-  const std::vector<std::size_t> ends = windowEnds(blocks.coords);
-  VertexErrors errors(longestRun(topology, ends));
-  std::size_t previous = 0, begin = 0;
-  for (const std::size_t end : ends) {
-    errors.moveOn(topology.blocks[previous].firstVertex);  // Faces reach back into the window before.
-    const VertexOutput out{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &errors, nullptr};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
-      monitor.throwIfStopped();
-      BlockVertexSolver& block = solvers.local();
-      VertexCounts& count = counts.local();
-      VertexOutput mine = out;
-      if (doubts != nullptr) mine.doubts = &found.local();
-      for (std::size_t i = range.begin(); i != range.end(); ++i) block.run(i, blocks, topology, mine, count);
-    });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16), [&](const auto& range) {
-      Doubts* mine = doubts != nullptr ? &found.local() : nullptr;
-      for (std::size_t i = range.begin(); i != range.end(); ++i) faces.run(i, errors, mine);
-      progress.advance(range.size());
-    });
-    previous = begin;
-    begin = end;
-  }
-  if (doubts != nullptr) {
-    for (const Doubts& d : found) doubts->append(d);
-    std::sort(doubts->vertices.begin(), doubts->vertices.end(),
-              [](const LooseVertex& a, const LooseVertex& b) { return a.vertex < b.vertex; });
-    std::sort(doubts->quads.begin(), doubts->quads.end());
-  }
-  VertexCounts total{.normalNoise = sigma.noise()};
-  counts.combine_each([&](const VertexCounts& c) { total += c; });
-  return total;
+  MeshFiller filler(source, blocks, topology, options, sigma, mesh, doubts != nullptr, monitor, level);
+  VertexCounts counts = filler.run();
+  counts.normalNoise = sigma.noise();
+  if (doubts != nullptr) filler.appendDoubts(*doubts);
+  return counts;
 }
 
 }  // namespace pdc::detail

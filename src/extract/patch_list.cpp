@@ -2,16 +2,17 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
 
 namespace pdc::detail {
 namespace {
 
-/// A cell's corners as they come in rows along z: those of row (x, y) in bits 2x + 4y and one more.
+/// A cell's corners as they come in rows along z: those of row (x, y) in bits 2y + 4x and one more.
 constexpr int codeOfPairs(int pairs) {
   int code = 0;
   for (int c = 0; c < kCorners; ++c) {
     const int x = c & 1, y = c >> 1 & 1, z = c >> 2;
-    code |= (pairs >> (2 * x + 4 * y + z) & 1) << c;
+    code |= (pairs >> (4 * x + 2 * y + z) & 1) << c;
   }
   return code;
 }
@@ -45,26 +46,39 @@ unsigned edgesOf(const SpecialCell& special, unsigned present, int v) {
 void PatchList::fill(const BlockTopology& topology, const BlockSigns& signs) {
   mPatches.resize(topology.vertexCount);
   mStrict.resize(topology.vertexCount);
+  mSpecial.clear();
   std::size_t next = 0;
-  const auto add = [&](int cell, unsigned edges, bool strict) {
-    mPatches[next] = {static_cast<std::uint16_t>(cell), static_cast<std::uint16_t>(edges)};
-    mStrict[next++] = strict ? 1 : 0;
+  unsigned any = 0;
+  const auto add = [&, patches = mPatches.data(), strict = mStrict.data()](int cell, unsigned edges) {
+    any |= edges;
+    patches[next] = {static_cast<std::uint16_t>(cell), static_cast<std::uint16_t>(edges & kEdgeBits)};
+    strict[next++] = static_cast<std::uint8_t>(edges >> kEdges);
+  };
+  // The pairs of corners at (y, z) and (y + 1, z) of a layer.
+  const auto twoPairs = [](const std::uint16_t* row, int z) {
+    std::uint32_t two;
+    static_assert(std::endian::native == std::endian::little);
+    std::memcpy(&two, row, sizeof two);
+    return two >> z & 0x30003;
   };
   auto special = topology.special.begin();
   for (int x = 0; x < kBlockSize; ++x)
     for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
       const int bit = std::countr_zero(w), cell = 64 * x + bit, z = bit & 7;
       const std::uint16_t* row = &signs.row[static_cast<std::size_t>(kBlockPoints * x + (bit >> 3))];
-      const int pairs = (row[0] >> z & 3) | (row[kBlockPoints] >> z & 3) << 2 | (row[1] >> z & 3) << 4 |
-                        (row[kBlockPoints + 1] >> z & 3) << 6;
-      const unsigned edges = kPairEdges[pairs];
+      const std::uint32_t pairs = twoPairs(row, z) | twoPairs(row + kBlockPoints, z) << 4;
+      const unsigned edges = kPairEdges[(pairs | pairs >> 14) & 0xFF];
       if (special == topology.special.end() || special->cell != cell) {
-        add(cell, edges & kEdgeBits, edges > kEdgeBits);
+        add(cell, edges);
         continue;
       }
-      for (int v = 0; v < special->vertexCount; ++v) add(cell, edgesOf(*special, edges & kEdgeBits, v), true);
+      for (int v = 0; v < special->vertexCount; ++v) {
+        mSpecial.push_back(static_cast<std::uint32_t>(next));
+        add(cell, edgesOf(*special, edges & kEdgeBits, v) | 1u << kEdges);
+      }
       ++special;
     }
+  mAnyStrict = any > kEdgeBits;
 }
 
 }  // namespace pdc::detail

@@ -2,152 +2,141 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
+#include "extract/cell_numbers.h"
 #include "extract/crossing_planes.h"
-#include "math/lane_loops.h"
-#include "pdc/math/quadric_lanes.h"
+#include "extract/patch_list.h"
+#include "math/float_lanes.h"
 #include "sample/patch_edges.h"
 
 namespace pdc::detail {
 
 /// What the crossings of sixteen patches, one per lane, sum up to: places p in lattice units from the low corner of the
 /// patch's cell, which keeps their rounding at that of numbers up to one.
-struct PatchSums {
-  SymMat3Lanes<float> A;             ///< Σ rrᵀ; with noise Σ w (rrᵀ + σ² G).
-  Vec3Lanes<float> b;                ///< Σ r (r·p); with noise Σ w (rrᵀ + σ² G) p.
-  Vec3Lanes<float> place;            ///< Σ w p.
-  alignas(64) float weight[kLanes];  ///< Σ w.
-};
+struct PatchSumLanes {
+  alignas(64) float row[16][kLanes];  ///< Of PatchSums.
 
-/// Where a patch's edges are found, and where their crossings lie.
-struct PatchEdgeCode {
-  /// From bit 0: the row of CrossingPlanes; then, for each axis, whether the edge lies at the far side of the cell, and
-  /// whether it runs along.
-  static constexpr unsigned kRowBits = 11, kRow = (1u << kRowBits) - 1;
-  static constexpr unsigned far(int axis) { return 1u << (kRowBits + axis); }
-  static constexpr unsigned along(int axis) { return 1u << (kRowBits + 3 + axis); }
-  static_assert(HermiteBlock::kCapacity + 1 <= kRow);
-
-  std::uint32_t slot, flags;  ///< `flags` leads to the row after that of the edge's number.
-};
-
-/// By edge of the cell; the last, of no edge, leads to the first row, which is zero.
-inline constexpr auto kPatchEdgeCode = [] {
-  constexpr std::size_t n = kCellEdge.size();
-  std::array<PatchEdgeCode, n + 1> code{};
-  for (std::size_t e = 0; e < n; ++e) {
-    const CellEdge& edge = kCellEdge[e];
-    code[e] = {static_cast<std::uint32_t>(edge.slot), 1 + PatchEdgeCode::along(edge.axis)};
-    for (int axis = 0; axis < 3; ++axis)
-      if ((edge.low >> axis & 1) != 0) code[e].flags |= PatchEdgeCode::far(axis);
+  [[nodiscard]] SymMat3<float> A(int i) const {
+    return {row[0][i], row[1][i], row[2][i], row[3][i], row[4][i], row[5][i]};
   }
-  code[n] = {EdgeIndex::kNoSlot, 0};
-  return code;
-}();
+  [[nodiscard]] float weight(int i) const { return row[6][i]; }
+  [[nodiscard]] Vec3f b(int i) const { return {row[8][i], row[9][i], row[10][i]}; }
+  [[nodiscard]] Vec3f place(int i) const { return {row[11][i], row[12][i], row[13][i]}; }
+};
 
-/// Sums up sixteen patches; those beyond the last repeat it. Must be compiled into a function of a SimdLevel.
-template <bool kNoisy>
-class PatchSummer {
+/// Sums over the crossings of each of a block's patches: A = Σ rrᵀ, b = Σ rrᵀp, Σ p and their number; with noise
+/// A = Σ w (rrᵀ + σ² G), b = Σ w (rrᵀ + σ² G) p, Σ w p and Σ w. Each crossing is added to the cells about it, in the
+/// order of the crossings. Its functions must be compiled into a function of a SimdLevel.
+class PatchSums {
  public:
-  PatchSummer(const CrossingPlanes& crossings, const EdgeIndex& edges, const SymMat3<float>& G)
-      : mCrossings(crossings), mNumber(edges.numbers()), mMetric(G) {}
-
-  void run(std::span<const SurfacePatch> patches, PatchSums& sums) const {
-    alignas(64) std::uint32_t code[kUsual][kLanes], rest[kLanes];
-    unsigned more = 0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const SurfacePatch& patch = patches[std::min(lane, patches.size() - 1)];
-      const std::uint16_t* number = mNumber + slotOf(patch);
-      unsigned bits = patch.edges;
-      for (auto& next : code) next[lane] = take(number, bits);
-      rest[lane] = bits;
-      more |= bits;
-    }
-    add<kUsual, true>(code, sums);
-    while (more != 0) {
-      more = 0;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const SurfacePatch& patch = patches[std::min(lane, patches.size() - 1)];
-        code[0][lane] = take(mNumber + slotOf(patch), rest[lane]);
-        more |= rest[lane];
-      }
-      add<1, false>(code, sums);
-    }
+  /// \param G where crossings have noise: see CellMetric.
+  template <bool kNoisy>
+  void add(const PatchList& patches, const CrossingPlanes& crossings, const EdgeIndex& edges, const SymMat3<float>& G) {
+    mRow.resize(std::max(mRow.size(), patches.size() + 1));
+    std::fill_n(mRow.begin(), patches.size() + 1, Row{});
+    mNumber.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i) mNumber.set(patches[i].cell, static_cast<std::uint16_t>(i + 1));
+    for (const std::uint32_t i : patches.special()) mNumber.set(patches[i].cell, 0);
+    const Terms<kNoisy> terms(crossings, G);
+    addAxis<0>(terms, edges);
+    addAxis<1>(terms, edges);
+    addAxis<2>(terms, edges);
+    for (const std::uint32_t i : patches.special())
+      forEachEdge(patches[i], edges, [&](int e, int number) { addTo(mRow[i + 1], terms, e, number); });
+    turnIntoLanes(patches.size());
   }
+
+  /// Of patch `first`, a multiple of kLanes, and those that follow; lanes beyond the last repeat it.
+  [[nodiscard]] const PatchSumLanes& lanes(std::size_t first) const { return mLanes[first / kLanes]; }
 
  private:
-  /// Nearly all patches have three to six edges: adding nothing is cheaper than a branch that cannot be foreseen.
-  static constexpr int kUsual = 6;
-
-  /// Takes the first of a patch's edges out.
-  static std::uint32_t take(const std::uint16_t* number, std::uint32_t& bits) {
-    const PatchEdgeCode& code = kPatchEdgeCode[std::countr_zero(bits | 1u << kCellEdge.size())];
-    bits &= bits - 1;
-    return number[code.slot] + code.flags;
-  }
-
-  /// One of a patch's crossings.
-  struct Crossing {
-    float row[4][kLanes], noise[kNoisy ? 4 : 0][kLanes];
+  /// (Axx, Axy, Axz, Ayy, Ayz, Azz, Σw, 0), (b, Σwp, 0, 0).
+  struct alignas(64) Row {
+    Float8 A, b;
   };
 
-  /// Adds `kCount` edges of each patch, to nothing at first.
-  template <int kCount, bool kFirst>
-  void add(const std::uint32_t (*code)[kLanes], PatchSums& s) const {
-    // All of them, before any is used: what was just put together in memory comes late.
-    alignas(64) Crossing crossing[kCount];
-    for (int k = 0; k < kCount; ++k)
-      for (int lane = 0; lane < kLanes; lane += 4) {
-        const auto at = [&](int i) { return code[k][lane + i] & PatchEdgeCode::kRow; };
-        transpose4({mCrossings.row(at(0)), mCrossings.row(at(1)), mCrossings.row(at(2)), mCrossings.row(at(3))},
-                   &crossing[k].row[0][lane], kLanes);
-        if constexpr (kNoisy)
-          transpose4(
-              {mCrossings.noise(at(0)), mCrossings.noise(at(1)), mCrossings.noise(at(2)), mCrossings.noise(at(3))},
-              &crossing[k].noise[0][lane], kLanes);
-      }
-    const SymMat3<float> G = mMetric;
-    forEachLane([&](int i) {
-      SymMat3<float> A{};
-      Vec3f b{}, sum{};
-      float weight = 0;
-      if constexpr (!kFirst) A = s.A.get(i), b = s.b.get(i), sum = s.place.get(i), weight = s.weight[i];
-#pragma GCC unroll 6
-      for (int k = 0; k < kCount; ++k) {
-        const Crossing& c = crossing[k];
-        const std::uint32_t flags = code[k][i];
-        const float t = c.row[3][i];
-        const auto place = [flags, t](int axis) {
-          const float far = (flags & PatchEdgeCode::far(axis)) != 0 ? 1.0F : 0.0F;
-          return (flags & PatchEdgeCode::along(axis)) != 0 ? t : far;
-        };
-        const Vec3f p{place(0), place(1), place(2)}, r{c.row[0][i], c.row[1][i], c.row[2][i]};
-        if constexpr (kNoisy) {
-          const float w = c.noise[0][i], variance = c.noise[1][i];
-          A += outer(r) * w + G * variance;
-          b += r * (w * dot(r, p)) + G * p * variance;
-          sum += p * w;
-          weight += w;
-        } else {
-          A += outer(r);
-          b += r * dot(r, p);
-          sum += p;
-          weight += (flags & PatchEdgeCode::kRow) != 0 ? 1.0F : 0.0F;
-        }
-      }
-      s.A.set(i, A);
-      s.b.set(i, b);
-      s.place.set(i, sum);
-      s.weight[i] = weight;
-    });
+  /// What crossings add to a cell.
+  template <bool kNoisy>
+  class Terms {
+   public:
+    Terms(const CrossingPlanes& crossings, const SymMat3<float>& G)
+        : mCrossings(crossings), mG{G.xx, G.xy, G.xz, G.yy, G.yz, G.zz, 0, 0} {}
+
+    [[nodiscard]] Float8 A(int edge) const {
+      const auto i = static_cast<std::size_t>(edge) + 1;
+      const Float4 r = loadFloat4(mCrossings.row(i)), one{1, 0, 0, 0};
+      const Float8 A = __builtin_shufflevector(r, one, 0, 0, 0, 1, 1, 2, 4, 5) *
+                       __builtin_shufflevector(r, one, 0, 1, 2, 1, 2, 2, 4, 5);
+      if constexpr (!kNoisy) return A;
+      const float* noise = mCrossings.noise(i);
+      return A * noise[0] + mG * noise[1];
+    }
+    [[nodiscard]] float t(int edge) const { return mCrossings.t(edge); }
+
+   private:
+    const CrossingPlanes& mCrossings;
+    const Float8 mG;
+  };
+
+  /// What a step along an axis adds to b and Σwp.
+  template <int axis>
+  static Float8 step(Float8 A) {
+    if constexpr (axis == 0) return __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
+    if constexpr (axis == 1) return __builtin_shufflevector(A, A, 1, 3, 4, 7, 6, 7, 7, 7);
+    return __builtin_shufflevector(A, A, 2, 4, 5, 7, 7, 6, 7, 7);
   }
 
-  const CrossingPlanes& mCrossings;
-  const std::uint16_t* mNumber;
-  const SymMat3<float> mMetric;
+  static void add(Row& row, Float8 A, Float8 b) {
+    row.A += A;
+    row.b += b;
+  }
+
+  template <int axis, typename T>
+  void addAxis(const T& terms, const EdgeIndex& edges) {
+    constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
+      const std::uint16_t* cell = mNumber.at(edges.points()[i]);
+      const Float8 A = terms.A(i), low = step<axis>(A) * terms.t(i), alongU = step<u>(A), alongV = step<v>(A);
+      const Float8 farU = low + alongU;
+      add(mRow[cell[0]], A, low);
+      add(mRow[cell[-CellNumbers::kStep[u]]], A, farU);
+      add(mRow[cell[-CellNumbers::kStep[v]]], A, low + alongV);
+      add(mRow[cell[-CellNumbers::kStep[u] - CellNumbers::kStep[v]]], A, farU + alongV);
+    }
+  }
+
+  /// Adds edge e of a cell, whose number is `number`.
+  template <typename T>
+  static void addTo(Row& row, const T& terms, int e, int number) {
+    const Float8 A = terms.A(number), along[3] = {step<0>(A), step<1>(A), step<2>(A)};
+    const int axis = kCellEdge[e].axis;
+    Float8 b = along[axis] * terms.t(number);
+    if ((e & 1) != 0) b += along[(axis + 1) % 3];
+    if ((e & 2) != 0) b += along[(axis + 2) % 3];
+    add(row, A, b);
+  }
+
+  /// All of them before any is used: what was just put together in memory comes late.
+  void turnIntoLanes(std::size_t count) {
+    mLanes.resize(std::max(mLanes.size(), blockCount(count)));
+    for (std::size_t first = 0; first < kLanes * blockCount(count); first += 4) {
+      const auto from = [&](std::size_t i) {
+        return reinterpret_cast<const float*>(&mRow[std::min(first + i, count - 1) + 1]);
+      };
+      const std::array<const float*, 4> row{from(0), from(1), from(2), from(3)};
+      PatchSumLanes& lanes = mLanes[first / kLanes];
+      for (std::size_t part = 0; part < 16; part += 4)
+        transpose4({row[0] + part, row[1] + part, row[2] + part, row[3] + part}, &lanes.row[part][first % kLanes],
+                   kLanes);
+    }
+  }
+
+  CellNumbers mNumber;
+  std::vector<Row> mRow;  ///< From the second on, of the patches; the first is of all that are none.
+  std::vector<PatchSumLanes> mLanes;
 };
 
 }  // namespace pdc::detail

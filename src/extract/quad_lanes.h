@@ -13,7 +13,6 @@ namespace pdc::detail {
 /// two axes (u, v) = (0, 0), (-1, 0), (-1, -1), (0, -1).
 struct QuadLanes {
   alignas(64) std::uint32_t axis[kLanes];  ///< Of the edge.
-  alignas(64) std::uint32_t vertex[4][kLanes];
   /// Of each corner what VertexError holds, in its order.
   alignas(64) float corner[4][12][kLanes];
   /// 1 for a diagonal from corner 0 to 2, 0 for one from 1 to 3.

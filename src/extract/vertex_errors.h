@@ -20,24 +20,38 @@ struct VertexError {
 /// ones.
 class VertexErrors {
  public:
+  /// Where vertices have their places.
+  struct Ring {
+    std::uint32_t size, base;  ///< The vertex at place 0; the run does not begin before it.
+
+    [[nodiscard]] std::uint32_t place(std::uint32_t vertex) const {
+      const std::uint32_t i = vertex - base, wrapped = i - size;  // The latter is huge before the ring's end.
+      return i < wrapped ? i : wrapped;
+    }
+  };
+
   /// \param longest run of vertices whose errors are needed at once.
-  explicit VertexErrors(std::size_t longest) : mErrors(std::max<std::size_t>(longest, 1)) {}
+  explicit VertexErrors(std::size_t longest)
+      : mErrors(std::max<std::size_t>(longest, 1)), mRing{static_cast<std::uint32_t>(mErrors.size()), 0} {}
 
   /// From now on `first` is the first of the run.
   void moveOn(std::uint64_t first) {
-    while (first - mBase >= mErrors.size()) mBase += mErrors.size();
+    while (static_cast<std::uint32_t>(first) - mRing.base >= mRing.size) mRing.base += mRing.size;
   }
-  [[nodiscard]] VertexError& operator[](std::uint64_t vertex) { return mErrors[place(vertex)]; }
-  [[nodiscard]] const VertexError& operator[](std::uint64_t vertex) const { return mErrors[place(vertex)]; }
+  [[nodiscard]] VertexError& operator[](std::uint64_t vertex) {
+    return mErrors[mRing.place(static_cast<std::uint32_t>(vertex))];
+  }
+  /// Those of `count` vertices from `first` on, if they lie in a row; otherwise null.
+  [[nodiscard]] VertexError* run(std::uint64_t first, std::uint32_t count) {
+    const std::uint32_t place = mRing.place(static_cast<std::uint32_t>(first));
+    return mRing.size - place >= count ? &mErrors[place] : nullptr;
+  }
+  [[nodiscard]] const VertexError* data() const { return mErrors.data(); }
+  [[nodiscard]] const Ring& ring() const { return mRing; }
 
  private:
-  [[nodiscard]] std::uint64_t place(std::uint64_t vertex) const {
-    const std::uint64_t i = vertex - mBase;
-    return std::min(i, i - mErrors.size());  // The latter is huge before the ring's end.
-  }
-
   Buffer<VertexError> mErrors;
-  std::uint64_t mBase = 0;  ///< The vertex at place 0; the run does not begin before it.
+  Ring mRing;
 };
 
 }  // namespace pdc::detail

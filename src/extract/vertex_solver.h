@@ -49,6 +49,9 @@ struct PatchSamples {
   double featureSigma = 0;  ///< σn of them.
 };
 
+/// Mean squared distance of a place from the planes that place the vertex, in voxels squared.
+[[nodiscard]] double planeError(const PatchSamples& samples, const Vec3d& x);
+
 struct SolvedVertex {
   Vec3d x;                 ///< Lattice units from the centre of the cell.
   SymMat3<double> A;       ///< Of the patch's quadric.

@@ -8,9 +8,8 @@
 
 namespace pdc::detail {
 
-/// One float per lane, or a row of sixteen.
-using Float16 = float __attribute__((vector_size(64)));
-static_assert(sizeof(Float16) == kLanes * sizeof(float));
+/// A row of eight.
+using Float8 = float __attribute__((vector_size(32)));
 
 /// Row k of `to` becomes column k of the four rows; `toStep` lies between the starts of rows.
 inline void transpose4(const std::array<const float*, 4>& from, float* to, std::size_t toStep) {
