@@ -308,7 +308,8 @@ class TypedGridSampler final : public GridSampler {
         mValues = mLeaf.read(table.leaf(place.leaf), table.values(place.leaf));
       }
     }
-    [[nodiscard]] const ValueT* at(int x, int y) const { return mValues + mStride * ((x & 7) * kBlockSize + (y & 7)); }
+    [[nodiscard]] const ValueT* row(int i) const { return mValues + mStride * i; }
+    [[nodiscard]] const ValueT* at(int x, int y) const { return row((x & 7) * kBlockSize + (y & 7)); }
 
    private:
     const ValueT* mValues = nullptr;
@@ -317,26 +318,46 @@ class TypedGridSampler final : public GridSampler {
     LeafValues<LeafT> mLeaf;
   };
 
+  /// Where a row of a halo lies: in which part (see HaloRows), and there in which row.
+  struct HaloRow {
+    std::uint8_t part, row;
+  };
+  static constexpr auto kHaloRow = [] {
+    std::array<HaloRow, Halo::kPoints * Halo::kPoints> rows{};
+    const auto part = [](int x) { return x < 0 ? 0 : x < kBlockSize ? 1 : 2; };
+    for (int i = 0; i < Halo::kPoints * Halo::kPoints; ++i) {
+      const int x = i / Halo::kPoints - 1, y = i % Halo::kPoints - 1;
+      rows[i] = {static_cast<std::uint8_t>(3 * part(x) + part(y)),
+                 static_cast<std::uint8_t>(kBlockSize * (x & 7) + (y & 7))};
+    }
+    return rows;
+  }();
+
   void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
     const HaloRows needed(edges);
     const typename Table::Around around(mTable, block);
-    const ValueReader<ValueT> reader = mReader;
-    forEachBlock(mLevel, 9, [&](std::size_t part) {
-      // On each axis: the last point of the block below, the eight of the block, the first two of the block above.
-      constexpr std::array<int, 3> kFirst{-1, 0, 8}, kEnd{0, 8, 10};
-      const int px = static_cast<int>(part) / 3, py = static_cast<int>(part) % 3;
-      if (!needed.any(kFirst[px], kEnd[px], kFirst[py], kEnd[py])) return;
-      std::array<Rows, 3> rows;
-      for (int pz = 0; pz < 3; ++pz)
-        if (pz != 0 || needed.below()) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
-      for (int x = kFirst[px]; x < kEnd[px]; ++x)
-        for (int y = kFirst[py]; y < kEnd[py]; ++y) {
-          if (!needed.row(x, y)) continue;
-          float* to = &halo.value[Halo::index(x, y, -1)];
-          if (needed.below()) reader.template copy<1>(rows[0].at(x, y) + 7, to);
-          reader.template copy<8>(rows[1].at(x, y), to + 1);
-          reader.template copy<2>(rows[2].at(x, y), to + 9);
-        }
+    std::array<std::array<Rows, 3>, 9> parts;
+    for (unsigned bits = needed.parts(); bits != 0; bits &= bits - 1) {
+      const int part = std::countr_zero(bits);
+      for (int z = 0; z < 3; ++z)
+        if (z != 0 || needed.below()) parts[part][z].find(mTable, around(part / 3 - 1, part % 3 - 1, z - 1));
+    }
+    const ValueReader<ValueT> reader = mReader;  // Of its own, so that no store can change it.
+    const auto read = [&](auto below) {
+      for (const std::uint8_t i : needed.rows()) {
+        const auto [part, row] = kHaloRow[i];
+        float* to = &halo.value[Halo::kPoints * i];
+        if constexpr (decltype(below)::value) reader.template copy<1>(parts[part][0].row(row) + 7, to);
+        reader.template copy<8>(parts[part][1].row(row), to + 1);
+        reader.template copy<2>(parts[part][2].row(row), to + 9);
+      }
+    };
+    forEachBlock(mLevel, 1, [&](std::size_t) {
+      if (needed.below()) {
+        read(std::true_type{});
+      } else {
+        read(std::false_type{});
+      }
     });
   }
 

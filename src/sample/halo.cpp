@@ -1,6 +1,7 @@
 #include "sample/halo.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -60,33 +61,40 @@ struct AxisKernel {
 }  // namespace
 
 HaloRows::HaloRows(const EdgeIndex& edges) {
+  constexpr int n = Halo::kPoints;
+  std::array<unsigned, n> needed{};  // By x + 1; bit y + 1.
   // Slopes across an edge are taken at both of its ends.
   const std::uint16_t* point = edges.points();
   for (int axis = 0; axis < 3; ++axis) {
     std::array<unsigned, kBlockPoints> from{};
+    bool lowest = false;
     for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
       from[point[i] >> 8] |= 2u << (point[i] >> 4 & 15);
-      mBelow = mBelow || (axis != 2 && (point[i] & 15) == 0);
+      lowest |= (point[i] & 15) == 0;
     }
+    mBelow = mBelow || (axis != 2 && lowest);
     for (int x = 0; x < kBlockPoints; ++x) {
       const unsigned ends = axis == 1 ? from[x] | from[x] << 1 : from[x];
       const unsigned beside = axis == 1 ? ends : ends | ends >> 1 | ends << 1;
-      mRows[x + 1] |= beside;
+      needed[x + 1] |= beside;
       if (axis == 0) {
-        mRows[x + 2] |= beside;
+        needed[x + 2] |= beside;
       } else {
-        mRows[x] |= ends;
-        mRows[x + 2] |= ends;
+        needed[x] |= ends;
+        needed[x + 2] |= ends;
       }
     }
   }
-}
-
-bool HaloRows::any(int beginX, int endX, int beginY, int endY) const {
-  const unsigned wanted = (1u << (endY + 1)) - (1u << (beginY + 1));
-  unsigned found = 0;
-  for (int x = beginX; x < endX; ++x) found |= mRows[x + 1] & wanted;
-  return found != 0;
+  std::array<unsigned, 3> ofLayer{};
+  for (int x = 0; x < n; ++x) ofLayer[x == 0 ? 0 : x <= kBlockSize ? 1 : 2] |= needed[x];
+  constexpr unsigned kPart[3] = {1, 0xFF << 1, 3 << 9};
+  for (int part = 0; part < 9; ++part) mParts |= unsigned{(ofLayer[part / 3] & kPart[part % 3]) != 0} << part;
+  constexpr int kAtOnce = 5;  // Layers that fit into a word: a loop over few bits ends unforeseen.
+  for (int first = 0; first < n; first += kAtOnce) {
+    std::uint64_t word = 0;
+    for (int x = first; x < n && x < first + kAtOnce; ++x) word |= std::uint64_t{needed[x]} << n * (x - first);
+    for (; word != 0; word &= word - 1) mRow[mSize++] = static_cast<std::uint8_t>(n * first + std::countr_zero(word));
+  }
 }
 
 void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& limits, const Mat3<float>& normalMap,
@@ -98,7 +106,12 @@ void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& l
     if (count == 0) continue;
     const int blocks = static_cast<int>(blockCount(static_cast<std::size_t>(count)));
     const std::uint16_t* packed = edges.points() + begin;
-    for (int i = 0; i < count; ++i) point[i] = Halo::index(packed[i] >> 8, packed[i] >> 4 & 15, packed[i] & 15);
+    forEachBlock(level, static_cast<std::size_t>(blocks), [&](std::size_t block) {
+      forEachLane([to = &point[block * kLanes], from = packed + block * kLanes](int i) {
+        const int p = from[i];
+        to[i] = Halo::index(p >> 8, p >> 4 & 15, p & 15);
+      });
+    });
     std::fill(point.begin() + count, point.begin() + blocks * kLanes, point[0]);
 
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

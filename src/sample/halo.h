@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include "pdc/math/mat3.h"
 #include "pdc/math/simd_level.h"
@@ -23,14 +25,18 @@ class HaloRows {
  public:
   explicit HaloRows(const EdgeIndex& edges);
 
-  [[nodiscard]] bool row(int x, int y) const { return (mRows[x + 1] >> (y + 1) & 1) != 0; }
-  /// Any row in [beginX, endX) × [beginY, endY).
-  [[nodiscard]] bool any(int beginX, int endX, int beginY, int endY) const;
+  /// Each as kPoints (x + 1) + y + 1.
+  [[nodiscard]] std::span<const std::uint8_t> rows() const { return {mRow.data(), mSize}; }
+  /// Bit 3px + py: whether any row is of a part of the halo; 0, 1, 2: the block below along an axis, the block itself,
+  /// the one above.
+  [[nodiscard]] unsigned parts() const { return mParts; }
   /// Whether the points at z = -1 are needed.
   [[nodiscard]] bool below() const { return mBelow; }
 
  private:
-  std::array<unsigned, Halo::kPoints> mRows{};  ///< By x + 1; bit y + 1.
+  std::array<std::uint8_t, Halo::kPoints * Halo::kPoints> mRow;
+  std::size_t mSize = 0;
+  unsigned mParts = 0;
   bool mBelow = false;
 };
 

@@ -1,6 +1,8 @@
 #include "pdc/sample/hermite_block.h"
 
-#include <algorithm>
+#include <bit>
+
+#include "math/lane_loops.h"
 
 namespace pdc {
 namespace {
@@ -8,18 +10,25 @@ namespace {
 /// The rows of a plane of points that fit into a word.
 constexpr int kRowsPerWord = 64 / kBlockPoints;
 
-/// 16y + z of each of a plane's points.
+/// 16y + z of each of a plane's points, with room for bits beyond the last of a word.
 constexpr auto kPlanePoint = [] {
-  std::array<std::uint16_t, kBlockPoints * kBlockPoints> point{};
+  std::array<std::uint16_t, kRowsPerWord * kBlockPoints + 65> point{};
   for (int i = 0; i < kBlockPoints * kBlockPoints; ++i)
     point[i] = static_cast<std::uint16_t>(i / kBlockPoints << 4 | i % kBlockPoints);
   return point;
 }();
 
+/// Edges of a word that are written at once, and overwritten where there are fewer: most words have fewer, but how many
+/// cannot be foreseen.
+constexpr int kAtOnce = 2;
+
 }  // namespace
 
 EdgeIndex::EdgeIndex(const BlockSigns& signs) {
-  std::fill(mNumber.begin() + kNoSlot, mNumber.end(), std::uint16_t{0});
+  detail::forEachBlock(bestSimdLevel(), 1, [&](std::size_t) { fill(signs); });
+}
+
+inline void EdgeIndex::fill(const BlockSigns& signs) {
   int n = 0;
   // Numbers the edges along `axis` whose low ends are in a plane; rowBits(y) says which of a row change sign.
   const auto addPlane = [&](int axis, int x, auto&& rowBits) {
@@ -29,11 +38,16 @@ EdgeIndex::EdgeIndex(const BlockSigns& signs) {
         word |= std::uint64_t{rowBits(y)} << (kBlockPoints * (y - first));
       std::uint16_t* number = &mNumber[slot(axis, x, first, 0)];
       const std::uint16_t* point = &kPlanePoint[kBlockPoints * first];
-      for (; word != 0; word &= word - 1) {
-        const int bit = std::countr_zero(word);
-        mPoint[n] = static_cast<std::uint16_t>(x << 8 | point[bit]);
-        number[bit] = static_cast<std::uint16_t>(n++);
-      }
+      const int end = n + std::popcount(word);
+      do {
+        for (int i = 0; i < kAtOnce; ++i, word &= word - 1) {
+          const int bit = std::countr_zero(word);
+          mPoint[n + i] = static_cast<std::uint16_t>(x << 8 | point[bit]);
+          number[bit] = static_cast<std::uint16_t>(n + i);
+        }
+        n += kAtOnce;
+      } while (n < end);
+      n = end;
     }
   };
   constexpr unsigned kLowerEnds = 0xFF;

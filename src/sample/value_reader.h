@@ -8,6 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "math/float_lanes.h"
 #include "sample/grid_sampler.h"
 
 namespace pdc::detail {
@@ -38,15 +39,20 @@ class ValueReader {
   /// value() of `count` values.
   template <int count>
   void copy(const ValueT* from, float* to) const {
-    // All are read before the first is written: a compiler that cannot tell `to` from the rest does not vectorise.
-    float read[count];
     if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
-      // What double precision would give, where the isovalue is a float.
-      for (int i = 0; i < count; ++i) read[i] = (static_cast<float>(from[i]) - mIsoFloat) * mSign;
+      // What double precision would give, where the isovalue is a float. In vectors: whole registers, not to wait for
+      // parts of one that were just stored.
+      int i = 0;
+      for (; i + 8 <= count; i += 8) {
+        Float8 v;
+        std::memcpy(&v, from + i, sizeof v);
+        v = (v - mIsoFloat) * mSign;
+        std::memcpy(to + i, &v, sizeof v);
+      }
+      for (; i < count; ++i) to[i] = (static_cast<float>(from[i]) - mIsoFloat) * mSign;
     } else {
-      for (int i = 0; i < count; ++i) read[i] = value(from[i]);
+      for (int i = 0; i < count; ++i) to[i] = value(from[i]);
     }
-    std::memcpy(to, read, sizeof read);
   }
 
   /// inside() of 64 values, one per bit. \param allFinite set to false if one is not.

@@ -101,13 +101,16 @@ class EdgeIndex {
   }
   /// By slot; meaningful only for edges that change sign.
   [[nodiscard]] const std::uint16_t* numbers() const { return mNumber.data(); }
-  /// So far beyond the slot of any of the block's own points along x, numbers() holds 0.
-  static constexpr int kNoSlot = 3 * kBlockPoints * kBlockPoints * kBlockPoints;
 
  private:
-  // Neither array is cleared before its end: a block uses little of them.
-  std::array<std::uint16_t, kMaxEdges> mPoint;
-  std::array<std::uint16_t, kNoSlot + kBlockSize * kBlockPoints * kBlockPoints> mNumber;
+  /// How far beyond its end a list may be written.
+  static constexpr int kRoom = 64;
+
+  void fill(const BlockSigns& signs);
+
+  // Not cleared: a block uses little of them.
+  std::array<std::uint16_t, kMaxEdges + kRoom> mPoint;
+  std::array<std::uint16_t, 3 * kBlockPoints * kBlockPoints * kBlockPoints + kRoom> mNumber;
   std::array<int, 4> mStart{};
 };
 
