@@ -1,5 +1,8 @@
 #include "sample/distance_probe.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,16 +35,14 @@ double quantile(std::vector<float>& values, double share) {
   return *at;
 }
 
-}  // namespace
-
-DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
-  const Mat3d Kt = K.transposed();
-  const auto window = std::make_unique<DistanceWindow>();
+/// Sizes of what is looked at, in voxels, in any order.
+struct Sizes {
   std::vector<float> slopes, thirds, fourths;
-  for (const Coord& block : sampler.someLeaves(kLeaves)) {
-    sampler.readWindow(block, static_cast<float>(1 / voxelSize), *window);
+
+  /// Adds those of a block. \param Kt turns gradients in lattice units into those in voxels.
+  void add(const DistanceWindow& window, const Mat3d& Kt) {
     for (int i = 0; i < kBlockSize * kBlockSize * kBlockSize; ++i) {
-      const float* p = &window->value[DistanceWindow::index(i >> 6, i >> 3 & 7, i & 7)];
+      const float* p = &window.value[DistanceWindow::index(i >> 6, i >> 3 & 7, i & 7)];
       if (!(std::abs(*p) < kNear)) continue;
       Vec3d g;
       for (int axis = 0; axis < 3; ++axis) {
@@ -56,15 +57,42 @@ DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double 
       if (error >= 0) slopes.push_back(static_cast<float>(error));
     }
   }
-  const double third = quantile(thirds, 0.25);
-  DistanceProbe probe{.slopeError = quantile(slopes, 0.5), .noise = 0, .texture = 0};
+  void append(const Sizes& s) {
+    slopes.insert(slopes.end(), s.slopes.begin(), s.slopes.end());
+    thirds.insert(thirds.end(), s.thirds.begin(), s.thirds.end());
+    fourths.insert(fourths.end(), s.fourths.begin(), s.fourths.end());
+  }
+};
+
+Sizes sizesOf(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
+  const std::vector<Coord> blocks = sampler.someLeaves(kLeaves);
+  tbb::enumerable_thread_specific<Sizes> parts;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
+    const auto window = std::make_unique<DistanceWindow>();
+    Sizes& sizes = parts.local();
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      sampler.readWindow(blocks[i], static_cast<float>(1 / voxelSize), *window);
+      sizes.add(*window, K.transposed());
+    }
+  });
+  Sizes all;
+  for (const Sizes& part : parts) all.append(part);
+  return all;
+}
+
+}  // namespace
+
+DistanceProbe probeDistances(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
+  Sizes sizes = sizesOf(sampler, K, voxelSize);
+  const double third = quantile(sizes.thirds, 0.25);
+  DistanceProbe probe{.slopeError = quantile(sizes.slopes, 0.5), .noise = 0, .texture = 0};
   if (!std::isfinite(third)) return probe;
   const double byThirds = third / (kQuartile * std::sqrt(20.0));
   // Most grids of solids need no more quantiles: they take longer than all the rest.
   const auto rough = [&] {
-    return std::min(byThirds, quantile(fourths, 0.25) / (kQuartile * std::sqrt(70.0))) > kRough;
+    return std::min(byThirds, quantile(sizes.fourths, 0.25) / (kQuartile * std::sqrt(70.0))) > kRough;
   };
-  const auto gaussian = [&] { return quantile(thirds, 0.1) > kLeastDecile * third; };
+  const auto gaussian = [&] { return quantile(sizes.thirds, 0.1) > kLeastDecile * third; };
   (byThirds > kRough && rough() && !gaussian() ? probe.texture : probe.noise) = byThirds;
   return probe;
 }
