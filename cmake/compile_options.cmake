@@ -4,10 +4,6 @@
 add_library(pdc_options INTERFACE)
 target_compile_options(pdc_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
   -fno-math-errno -fno-trapping-math)
-# g++ warns where vectors wider than a processor's registers are passed, which here is within inlined code only.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(pdc_options INTERFACE -Wno-psabi)
-endif()
 if(PDC_WERROR)
   target_compile_options(pdc_options INTERFACE -Werror)
 endif()

@@ -65,14 +65,15 @@ class PatchSums {
     Terms(const CrossingPlanes& crossings, const SymMat3<float>& G)
         : mCrossings(crossings), mG{G.xx, G.xy, G.xz, G.yy, G.yz, G.zz, 0, 0} {}
 
-    [[nodiscard]] Float8 A(int edge) const {
+    void getA(int edge, Float8& A) const {
       const auto i = static_cast<std::size_t>(edge) + 1;
       const Float4 r = loadFloat4(mCrossings.row(i)), one{1, 0, 0, 0};
-      const Float8 A = __builtin_shufflevector(r, one, 0, 0, 0, 1, 1, 2, 4, 5) *
-                       __builtin_shufflevector(r, one, 0, 1, 2, 1, 2, 2, 4, 5);
-      if constexpr (!kNoisy) return A;
-      const float* noise = mCrossings.noise(i);
-      return A * noise[0] + mG * noise[1];
+      A = __builtin_shufflevector(r, one, 0, 0, 0, 1, 1, 2, 4, 5) *
+          __builtin_shufflevector(r, one, 0, 1, 2, 1, 2, 2, 4, 5);
+      if constexpr (kNoisy) {
+        const float* noise = mCrossings.noise(i);
+        A = A * noise[0] + mG * noise[1];
+      }
     }
     [[nodiscard]] float t(int edge) const { return mCrossings.t(edge); }
 
@@ -81,15 +82,17 @@ class PatchSums {
     const Float8 mG;
   };
 
+  // Vectors go by reference: how wide ones are passed by value depends on the instruction set.
+
   /// What a step along an axis adds to b and Σwp.
   template <int axis>
-  static Float8 step(Float8 A) {
-    if constexpr (axis == 0) return __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
-    if constexpr (axis == 1) return __builtin_shufflevector(A, A, 1, 3, 4, 7, 6, 7, 7, 7);
-    return __builtin_shufflevector(A, A, 2, 4, 5, 7, 7, 6, 7, 7);
+  static void getStep(const Float8& A, Float8& step) {
+    if constexpr (axis == 0) step = __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
+    if constexpr (axis == 1) step = __builtin_shufflevector(A, A, 1, 3, 4, 7, 6, 7, 7, 7);
+    if constexpr (axis == 2) step = __builtin_shufflevector(A, A, 2, 4, 5, 7, 7, 6, 7, 7);
   }
 
-  static void add(Row& row, Float8 A, Float8 b) {
+  static void add(Row& row, const Float8& A, const Float8& b) {
     row.A += A;
     row.b += b;
   }
@@ -99,19 +102,28 @@ class PatchSums {
     constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
       const std::uint16_t* cell = mNumber.at(edges.points()[i]);
-      const Float8 A = terms.A(i), low = step<axis>(A) * terms.t(i), alongU = step<u>(A), alongV = step<v>(A);
-      const Float8 farU = low + alongU;
+      Float8 A, low, alongU, alongV;
+      terms.getA(i, A);
+      getStep<axis>(A, low);
+      getStep<u>(A, alongU);
+      getStep<v>(A, alongV);
+      low *= terms.t(i);
+      const Float8 farU = low + alongU, farV = low + alongV, far = farU + alongV;
       add(mRow[cell[0]], A, low);
       add(mRow[cell[-CellNumbers::kStep[u]]], A, farU);
-      add(mRow[cell[-CellNumbers::kStep[v]]], A, low + alongV);
-      add(mRow[cell[-CellNumbers::kStep[u] - CellNumbers::kStep[v]]], A, farU + alongV);
+      add(mRow[cell[-CellNumbers::kStep[v]]], A, farV);
+      add(mRow[cell[-CellNumbers::kStep[u] - CellNumbers::kStep[v]]], A, far);
     }
   }
 
   /// Adds edge e of a cell, whose number is `number`.
   template <typename T>
   static void addTo(Row& row, const T& terms, int e, int number) {
-    const Float8 A = terms.A(number), along[3] = {step<0>(A), step<1>(A), step<2>(A)};
+    Float8 A, along[3];
+    terms.getA(number, A);
+    getStep<0>(A, along[0]);
+    getStep<1>(A, along[1]);
+    getStep<2>(A, along[2]);
     const int axis = kCellEdge[e].axis;
     Float8 b = along[axis] * terms.t(number);
     if ((e & 1) != 0) b += along[(axis + 1) % 3];
