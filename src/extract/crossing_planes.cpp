@@ -21,13 +21,12 @@ std::size_t countWithoutNormal(const HermiteBlock& hermite, const EdgeIndex& edg
 
 std::size_t CrossingPlanes::fill(const HermiteBlock& hermite, const EdgeIndex& edges, const CellMetric& metric,
                                  const LatticeMap& map, const Vec3d& origin, SimdLevel level) {
-  mRow[0].fill(0.0F);
   alignas(64) int none[kLanes]{};
   const std::size_t blocks = blockCount(static_cast<std::size_t>(edges.size()));
   forEachBlock(level, blocks, [&](std::size_t block) {
     const std::size_t first = block * kLanes;
     for (std::size_t i = first; i < first + kLanes; i += 4)
-      transpose4({&hermite.nx[i], &hermite.ny[i], &hermite.nz[i], &hermite.t[i]}, mRow[i + 1].data(), 4);
+      transpose4({&hermite.nx[i], &hermite.ny[i], &hermite.nz[i], &hermite.t[i]}, mRow[i].data(), 4);
     const float *nx = &hermite.nx[first], *ny = &hermite.ny[first], *nz = &hermite.nz[first];
     forEachLane([&](int i) { none[i] |= int(nx[i] == 0) & int(ny[i] == 0) & int(nz[i] == 0); });
   });
@@ -39,7 +38,7 @@ std::size_t CrossingPlanes::fill(const HermiteBlock& hermite, const EdgeIndex& e
       place[axis] += hermite.t[i];
       const Vec3f r = vecCast<float>(
           map.affine() ? Mt * n : map.jacobian(origin + place).transposed() * n * (1 / metric.voxelSize));
-      for (int k = 0; k < 3; ++k) mRow[i + 1][k] = r[k];
+      for (int k = 0; k < 3; ++k) mRow[i][k] = r[k];
     });
   }
   // What lies beyond the last edge may be anything.
@@ -48,10 +47,9 @@ std::size_t CrossingPlanes::fill(const HermiteBlock& hermite, const EdgeIndex& e
 
 void CrossingPlanes::setNoise(const PlaneNoise& noise, const EdgeIndex& edges, double variance) {
   const auto common = static_cast<float>(variance);
-  mNoise[0].fill(0.0F);
   for (int i = 0; i < edges.size(); ++i) {
     const float w = std::max(noise.weight[i], kLeastWeight);
-    mNoise[i + 1] = {w, w * (common + noise.sigma[i] * noise.sigma[i]), 0.0F, 0.0F};
+    mNoise[i] = {w, w * (common + noise.sigma[i] * noise.sigma[i])};
   }
 }
 

@@ -21,18 +21,16 @@ class CrossingPlanes {
   /// Weights below count as this, so that crossings without any do not leave a cell without a place.
   static constexpr float kLeastWeight = 1e-6F;
 
-  /// (r, t) of edge i in row i + 1; the first is zero.
-  [[nodiscard]] const float* row(std::size_t i) const { return mRow[i].data(); }
-  /// (weight, weight times variance) of edge i in row i + 1; the first is zero.
-  [[nodiscard]] const float* noise(std::size_t i) const { return mNoise[i].data(); }
-  [[nodiscard]] Vec3f plane(int edge) const { return {mRow[edge + 1][0], mRow[edge + 1][1], mRow[edge + 1][2]}; }
-  [[nodiscard]] float t(int edge) const { return mRow[edge + 1][3]; }
+  /// (r, t) of an edge.
+  [[nodiscard]] const float* row(int edge) const { return mRow[edge].data(); }
+  /// (weight, weight times variance) of an edge.
+  [[nodiscard]] const float* noise(int edge) const { return mNoise[edge].data(); }
+  [[nodiscard]] Vec3f plane(int edge) const { return {mRow[edge][0], mRow[edge][1], mRow[edge][2]}; }
+  [[nodiscard]] float t(int edge) const { return mRow[edge][3]; }
 
  private:
-  using Rows = std::array<std::array<float, 4>, HermiteBlock::kCapacity + 1>;
-
-  alignas(16) Rows mRow;
-  alignas(16) Rows mNoise;
+  alignas(16) std::array<std::array<float, 4>, HermiteBlock::kCapacity> mRow;
+  std::array<std::array<float, 2>, HermiteBlock::kCapacity> mNoise;
 };
 
 }  // namespace pdc::detail

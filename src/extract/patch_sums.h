@@ -66,12 +66,11 @@ class PatchSums {
         : mCrossings(crossings), mG{G.xx, G.xy, G.xz, G.yy, G.yz, G.zz, 0, 0} {}
 
     void getA(int edge, Float8& A) const {
-      const auto i = static_cast<std::size_t>(edge) + 1;
-      const Float4 r = loadFloat4(mCrossings.row(i)), one{1, 0, 0, 0};
+      const Float4 r = loadFloat4(mCrossings.row(edge)), one{1, 0, 0, 0};
       A = __builtin_shufflevector(r, one, 0, 0, 0, 1, 1, 2, 4, 5) *
           __builtin_shufflevector(r, one, 0, 1, 2, 1, 2, 2, 4, 5);
       if constexpr (kNoisy) {
-        const float* noise = mCrossings.noise(i);
+        const float* noise = mCrossings.noise(edge);
         A = A * noise[0] + mG * noise[1];
       }
     }
