@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "extract/cell_rounding.h"
 #include "extract/cell_vertices.h"
 #include "extract/quad_lanes.h"
 #include "extract/quad_rings.h"
 #include "math/lane_loops.h"
+#include "math/word_bits.h"
 
 namespace pdc::detail {
 namespace {
@@ -56,21 +56,13 @@ class BlockFaceWriter::Block {
   static constexpr int kMostQuads = 3 * kBlockSize * kBlockSize * kBlockSize;
 
   void listEdges() {
-    // Written at once, and overwritten where there are fewer: how many there are cannot be foreseen.
-    constexpr int kAtOnce = 4;
     int n = 0;
     for (int axis = 0; axis < 3; ++axis) {
       mBegin[axis] = n;
-      for (int x = 0; x < kBlockSize; ++x) {
-        std::uint64_t word = mOwn.edges[axis].word[x];
-        const int end = n + std::popcount(word);
-        do {
-          for (int i = 0; i < kAtOnce; ++i, word &= word - 1)
-            mEdge[n + i] = static_cast<std::uint16_t>(512 * axis + 64 * x + std::countr_zero(word));
-          n += kAtOnce;
-        } while (n < end);
-        n = end;
-      }
+      for (int x = 0; x < kBlockSize; ++x)
+        n += writeBits<4>(mOwn.edges[axis].word[x], [&](int i, int bit) {
+          mEdge[n + i] = static_cast<std::uint16_t>(512 * axis + 64 * x + bit);
+        });
     }
     mBegin[3] = n;
   }
@@ -120,11 +112,11 @@ class BlockFaceWriter::Block {
   /// Quads start where their diagonal does, and go round as their orientation wants.
   void write(int from, int used) {
     const BlockSigns& signs = mWriter.mBlocks.signs[mBlock];
-    const unsigned mirrored = mWriter.mMap.mirrored() ? 1 : 0;
+    const bool mirrored = mWriter.mMap.mirrored();
     alignas(64) std::uint32_t reversed[kLanes], quad[4][kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      const unsigned cell = mEdge[from + i] & 511, row = (cell >> 3) + (cell >> 6);
-      reversed[i] = (signs.row[row] >> (cell & 7) & 1u) ^ mirrored ^ 1;
+      const EdgeRef e = edge(from + i);
+      reversed[i] = signs.inside(e.x(), e.y(), e.z()) == mirrored ? 1 : 0;
     }
     forEachLane([&, first = mLanes.first, v0 = &mVertex[0][from], v1 = &mVertex[1][from], v2 = &mVertex[2][from],
                  v3 = &mVertex[3][from]](int i) {

@@ -30,7 +30,7 @@ class BlockGroups {
     const std::size_t group = mNext.fetch_add(1, std::memory_order_relaxed), begin = mBegin + group * kGroupBlocks;
     return {group, begin, std::min(begin + kGroupBlocks, mEnd)};
   }
-  /// The group's vertices are.
+  /// To be called when the vertices of the group's blocks are written: who asks for them then finds them so.
   void setSolved(std::size_t group) { mSolved[group].store(true, std::memory_order_release); }
   /// Whether all vertices are solved that the faces of a block have, whose own are.
   [[nodiscard]] bool hasItsVertices(std::size_t block) const {

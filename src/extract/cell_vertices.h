@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "extract/block_topology.h"
+#include "math/word_bits.h"
 
 namespace pdc::detail {
 
@@ -55,18 +56,13 @@ class CellVertices {
   }
 
   void addOwn(const BlockTopology& b) {
-    // Written at once, and overwritten or not asked for where there are fewer: how many there are cannot be foreseen.
-    constexpr int kAtOnce = 8;
     for (int x = 0; x < kBlockSize; ++x) {
+      const std::uint64_t word = b.cells.word[x];
+      if (word == 0) continue;
       const int first = index(x, 0, 0);
-      std::uint64_t w = b.cells.word[x];
       const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
-      const int count = std::popcount(w);
-      for (int n = 0; n < count; n += kAtOnce)
-        for (int i = 0; i < kAtOnce; ++i, w &= w - 1) {
-          const int bit = std::countr_zero(w);
-          mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(n + i);
-        }
+      writeBits<8>(word,
+                   [&](int i, int bit) { mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(i); });
     }
   }
 

@@ -65,6 +65,7 @@ struct Sizes {
 };
 
 Sizes sizesOf(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
+  const Mat3d Kt = K.transposed();
   const std::vector<Coord> blocks = sampler.someLeaves(kLeaves);
   tbb::enumerable_thread_specific<Sizes> parts;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
@@ -72,7 +73,7 @@ Sizes sizesOf(const GridSampler& sampler, const Mat3d& K, double voxelSize) {
     Sizes& sizes = parts.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       sampler.readWindow(blocks[i], static_cast<float>(1 / voxelSize), *window);
-      sizes.add(*window, K.transposed());
+      sizes.add(*window, Kt);
     }
   });
   Sizes all;

@@ -324,10 +324,9 @@ class TypedGridSampler final : public GridSampler {
   };
   static constexpr auto kHaloRow = [] {
     std::array<HaloRow, Halo::kPoints * Halo::kPoints> rows{};
-    const auto part = [](int x) { return x < 0 ? 0 : x < kBlockSize ? 1 : 2; };
     for (int i = 0; i < Halo::kPoints * Halo::kPoints; ++i) {
       const int x = i / Halo::kPoints - 1, y = i % Halo::kPoints - 1;
-      rows[i] = {static_cast<std::uint8_t>(3 * part(x) + part(y)),
+      rows[i] = {static_cast<std::uint8_t>(3 * Halo::part(x) + Halo::part(y)),
                  static_cast<std::uint8_t>(kBlockSize * (x & 7) + (y & 7))};
     }
     return rows;

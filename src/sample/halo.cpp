@@ -86,7 +86,7 @@ HaloRows::HaloRows(const EdgeIndex& edges) {
     }
   }
   std::array<unsigned, 3> ofLayer{};
-  for (int x = 0; x < n; ++x) ofLayer[x == 0 ? 0 : x <= kBlockSize ? 1 : 2] |= needed[x];
+  for (int x = 0; x < n; ++x) ofLayer[Halo::part(x - 1)] |= needed[x];
   constexpr unsigned kPart[3] = {1, 0xFF << 1, 3 << 9};
   for (int part = 0; part < 9; ++part) mParts |= unsigned{(ofLayer[part / 3] & kPart[part % 3]) != 0} << part;
   constexpr int kAtOnce = 5;  // Layers that fit into a word: a loop over few bits ends unforeseen.

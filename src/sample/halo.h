@@ -15,6 +15,8 @@ struct Halo {
   static constexpr int kPoints = kBlockPoints + 2;
   static constexpr std::array<int, 3> kStep{kPoints * kPoints, kPoints, 1};
 
+  /// Of a point along an axis, which block it is of: 0 the one below, 1 the block itself, 2 the one above.
+  static constexpr int part(int x) { return x < 0 ? 0 : x < kBlockSize ? 1 : 2; }
   static constexpr int index(int x, int y, int z) { return (kPoints * (x + 1) + y + 1) * kPoints + z + 1; }
 
   std::array<float, kPoints * kPoints * kPoints> value;
@@ -27,8 +29,7 @@ class HaloRows {
 
   /// Each as kPoints (x + 1) + y + 1.
   [[nodiscard]] std::span<const std::uint8_t> rows() const { return {mRow.data(), mSize}; }
-  /// Bit 3px + py: whether any row is of a part of the halo; 0, 1, 2: the block below along an axis, the block itself,
-  /// the one above.
+  /// Bit 3 Halo::part(x) + Halo::part(y): whether any row (x, y) of that part is needed.
   [[nodiscard]] unsigned parts() const { return mParts; }
   /// Whether the points at z = -1 are needed.
   [[nodiscard]] bool below() const { return mBelow; }

@@ -1,8 +1,7 @@
 #include "pdc/sample/hermite_block.h"
 
-#include <bit>
-
 #include "math/lane_loops.h"
+#include "math/word_bits.h"
 
 namespace pdc {
 namespace {
@@ -18,17 +17,13 @@ constexpr auto kPlanePoint = [] {
   return point;
 }();
 
-/// Edges of a word that are written at once, and overwritten where there are fewer: most words have fewer, but how many
-/// cannot be foreseen.
-constexpr int kAtOnce = 2;
-
 }  // namespace
 
 EdgeIndex::EdgeIndex(const BlockSigns& signs) {
   detail::forEachBlock(bestSimdLevel(), 1, [&](std::size_t) { fill(signs); });
 }
 
-inline void EdgeIndex::fill(const BlockSigns& signs) {
+void EdgeIndex::fill(const BlockSigns& signs) {
   int n = 0;
   // Numbers the edges along `axis` whose low ends are in a plane; rowBits(y) says which of a row change sign.
   const auto addPlane = [&](int axis, int x, auto&& rowBits) {
@@ -38,16 +33,11 @@ inline void EdgeIndex::fill(const BlockSigns& signs) {
         word |= std::uint64_t{rowBits(y)} << (kBlockPoints * (y - first));
       std::uint16_t* number = &mNumber[slot(axis, x, first, 0)];
       const std::uint16_t* point = &kPlanePoint[kBlockPoints * first];
-      const int end = n + std::popcount(word);
-      do {
-        for (int i = 0; i < kAtOnce; ++i, word &= word - 1) {
-          const int bit = std::countr_zero(word);
-          mPoint[n + i] = static_cast<std::uint16_t>(x << 8 | point[bit]);
-          number[bit] = static_cast<std::uint16_t>(n + i);
-        }
-        n += kAtOnce;
-      } while (n < end);
-      n = end;
+      // Most words have two edges or fewer.
+      n += detail::writeBits<2>(word, [&](int i, int bit) {
+        mPoint[n + i] = static_cast<std::uint16_t>(x << 8 | point[bit]);
+        number[bit] = static_cast<std::uint16_t>(n + i);
+      });
     }
   };
   constexpr unsigned kLowerEnds = 0xFF;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace pdc::detail {
+
+/// Calls write(i, bit) for i = 0, 1, … and the set bits of a word, ascending; then for some i beyond, kAtOnce at most,
+/// with bit 64, where it must do no harm: how many bits there are cannot be foreseen, and a loop that ends unforeseen
+/// costs more than a few writes in vain. Should be compiled into a function of a SimdLevel.
+/// \returns the number of set bits.
+template <int kAtOnce, typename Write>
+int writeBits(std::uint64_t word, Write&& write) {
+  const int count = std::popcount(word);
+  int n = 0;
+  do {
+    for (int i = 0; i < kAtOnce; ++i, word &= word - 1) write(n + i, std::countr_zero(word));
+    n += kAtOnce;
+  } while (n < count);
+  return count;
+}
+
+}  // namespace pdc::detail
