@@ -7,14 +7,14 @@
 #include <new>
 #include <string>
 
-#include "check_command.h"
-#include "huge_heap.h"
-#include "info_command.h"
-#include "interrupt.h"
-#include "mesh_command.h"
+#include "commands/check_command.h"
+#include "terminal/huge_heap.h"
+#include "commands/info_command.h"
+#include "terminal/interrupt.h"
+#include "commands/mesh_command.h"
 #include "pdc/error.h"
-#include "render_command.h"
-#include "sweep_command.h"
+#include "commands/render_command.h"
+#include "commands/sweep_command.h"
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "pdc/extract/contour.h"
-#include "pdc/sample/grid_source.h"
+#include "pdc/sample/vdb/grid_source.h"
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include "eval/shapes.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/function_field.h"
-#include "pdc/sample/field_source.h"
-#include "pdc/sample/grid_source.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_source.h"
 
 namespace pdc::eval {
 namespace {

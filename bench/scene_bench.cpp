@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "pdc/extract/contour.h"
-#include "pdc/io/scene_reader.h"
-#include "pdc/sample/field_source.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/sample/implicit/field_source.h"
 
 namespace {
 

@@ -18,12 +18,12 @@
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
-#include "pdc/io/scene_reader.h"
-#include "pdc/io/vdb_reader.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
-#include "pdc/sample/field_source.h"
-#include "pdc/sample/grid_source.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_source.h"
 
 namespace {
 

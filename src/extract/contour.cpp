@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "extract/block_topology.h"
-#include "extract/certify.h"
-#include "extract/fill_mesh.h"
-#include "extract/rate_vertices.h"
-#include "with_threads.h"
+#include "extract/certify/certify.h"
+#include "extract/faces/fill_mesh.h"
+#include "extract/topology/block_topology.h"
+#include "extract/vertex_confidence.h"
+#include "parallel/with_threads.h"
 
 namespace pdc {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "io/atomic_file.h"
-#include "io/file_error.h"
+#include "io/file/atomic_file.h"
+#include "io/file/file_error.h"
 
 namespace pdc {
 std::vector<std::uint8_t> encodePng(const Image& image) {

@@ -9,8 +9,8 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "parallel/with_threads.h"
 #include "render/tile.h"
-#include "with_threads.h"
 
 namespace pdc {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pdc/render/render.h"
-#include "render/ray_scene.h"
+#include "rays/ray_scene.h"
 #include "render/view_mesh.h"
 
 namespace pdc::detail {

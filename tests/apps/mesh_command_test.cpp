@@ -7,7 +7,7 @@
 
 #include "apps/grid_files.h"
 #include "apps/program.h"
-#include "pdc/io/mesh_reader.h"
+#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/mesh_report.h"
 
 namespace pdc::test {

@@ -2,7 +2,7 @@
 #include <pdc/extract/contour.h>
 #include <pdc/field/function_field.h>
 #include <pdc/mesh/mesh_report.h>
-#include <pdc/sample/field_source.h>
+#include <pdc/sample/implicit/field_source.h>
 
 #include <cmath>
 #include <cstdio>

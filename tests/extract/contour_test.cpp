@@ -10,11 +10,11 @@
 #include <set>
 #include <string>
 
-#include "extract/block_topology.h"
+#include "extract/topology/block_topology.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
 #include "pdc/mesh/mesh_report.h"
-#include "pdc/sample/field_source.h"
+#include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
 namespace {

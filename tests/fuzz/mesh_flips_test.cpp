@@ -8,9 +8,9 @@
 
 #include "fuzz/forked.h"
 #include "fuzz/mutate.h"
-#include "io/temporary_folder.h"
-#include "pdc/io/mesh_reader.h"
-#include "pdc/io/mesh_writer.h"
+#include "io/file/temporary_folder.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/mesh_report.h"
 
 namespace pdc {

@@ -6,7 +6,7 @@
 #include "fuzz/forked.h"
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
-#include "io/temporary_folder.h"
+#include "io/file/temporary_folder.h"
 
 namespace pdc {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "io/temporary_folder.h"
+#include "io/file/temporary_folder.h"
 #include "pdc/extract/contour.h"
-#include "pdc/io/scene_reader.h"
-#include "pdc/io/vdb_reader.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/mesh/mesh_report.h"
-#include "pdc/sample/field_source.h"
-#include "pdc/sample/grid_source.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_source.h"
 
 namespace pdc {
 namespace {

@@ -8,8 +8,8 @@
 #include "fuzz/forked.h"
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
-#include "io/temporary_folder.h"
-#include "pdc/io/vdb_reader.h"
+#include "io/file/temporary_folder.h"
+#include "pdc/io/vdb/vdb_reader.h"
 
 namespace pdc {
 namespace {

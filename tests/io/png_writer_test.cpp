@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/temporary_folder.h"
+#include "io/file/temporary_folder.h"
 #include "pdc/error.h"
 
 namespace pdc {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "pdc/sample/field_source.h"
-#include "sample/noisy_part.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "sample/creases/noisy_part.h"
 
 namespace pdc {
 namespace {

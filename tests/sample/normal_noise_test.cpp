@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "pdc/sample/field_source.h"
-#include "pdc/sample/grid_source.h"
-#include "sample/noisy_part.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_source.h"
+#include "sample/creases/noisy_part.h"
 
 namespace pdc {
 namespace {

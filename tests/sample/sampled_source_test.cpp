@@ -5,8 +5,8 @@
 #include <atomic>
 #include <memory>
 
-#include "pdc/sample/field_source.h"
-#include "sample/noisy_part.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "sample/creases/noisy_part.h"
 
 namespace pdc {
 namespace {

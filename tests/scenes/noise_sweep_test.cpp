@@ -8,8 +8,8 @@
 #include "pdc/extract/contour.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
-#include "pdc/io/scene_reader.h"
-#include "pdc/sample/field_source.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/sample/implicit/field_source.h"
 
 // Figure 3 of Trettner & Kobbelt 2020: fractal simplex noise with a sphere cut out, at σn = 0, 0.10, 0.25 and infinity.
 namespace pdc {

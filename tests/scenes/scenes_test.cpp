@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "pdc/extract/contour.h"
-#include "pdc/io/scene_reader.h"
+#include "pdc/io/scene/scene_reader.h"
 #include "pdc/mesh/mesh_report.h"
-#include "pdc/sample/field_source.h"
+#include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
 namespace {

@@ -23,8 +23,8 @@ struct ContourOptions {
   /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
   /// experiments.
   /// Empty: from the data. The noise of the normals is estimated as by normalNoise() from up to 64 blocks; creases get
-  /// that as σn, at least 0.02, and patches whose normals agree to within it about 0.7 or more, which halves the error of
-  /// curvature and noise there. A function has no noise. Planes that come from distances have a σn of their own.
+  /// that as σn, at least 0.02, and patches whose normals agree to within it about 0.7 or more, which halves the error
+  /// of curvature and noise there. A function has no noise. Planes that come from distances have a σn of their own.
   std::optional<double> sigmaNormal = kDefaultSigmaNormal;
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.

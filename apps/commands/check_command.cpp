@@ -1,0 +1,107 @@
+#include "commands/check_command.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "terminal/busy_sign.h"
+#include "terminal/facts_text.h"
+#include "commands/info_facts.h"
+#include "terminal/interrupt.h"
+#include "commands/json_report.h"
+#include "terminal/numbers.h"
+#include "parallel/with_threads.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/mesh/mesh_report.h"
+#include "pdc/mesh/self_intersections.h"
+#include "terminal/progress_bar.h"
+
+namespace pdc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto kBoundary = "boundary_edges";
+/// Facts that are 0 or false for a clean mesh.
+constexpr std::array kFaults = {
+    kBoundary,          "non_manifold_edges",  "non_manifold_vertices", "misoriented_edges",  "duplicate_faces",
+    "degenerate_faces", "zero_area_triangles", "non_finite_vertices",   "self_intersections", "inside_out"};
+
+Json factsOf(const CheckRequest& request) {
+  Mesh mesh;
+  MeshReport report;
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
+    mesh = readMesh(request.file);
+    report = analyze(mesh);
+  }
+  ProgressBar bar(!request.quiet);
+  const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+  const SelfIntersections found = selfIntersections(mesh, {}, {.progress = show, .stop = &interruptFlag()});
+
+  Json facts{{"file", request.file.string()}};
+  facts.update(meshFacts(report));
+  facts["inside_out"] = report.boundaryEdges == 0 && report.volume < 0;
+  facts["zero_area_triangles"] = found.degenerateTriangles;
+  facts["self_intersections"] = found.pairs.size();
+  facts["all_self_intersections_counted"] = found.complete;
+  return facts;
+}
+
+Json faultsIn(const Json& facts, bool allowBoundary) {
+  Json faults = Json::array();
+  for (const char* name : kFaults) {
+    if (name == kBoundary && allowBoundary) continue;
+    const Json& fact = facts[name];
+    if (fact.is_boolean() ? fact.get<bool>() : fact.get<std::size_t>() > 0) faults.push_back(name);
+  }
+  return faults;
+}
+
+std::string verdict(const Json& facts) {
+  if (facts["clean"]) return "clean";
+  std::string text;
+  for (const Json& fault : facts["faults"]) {
+    const auto name = fault.get<std::string>();
+    const bool counts = !facts[name].is_boolean();
+    const bool more = name == "self_intersections" && !facts["all_self_intersections_counted"];
+    text += fmt::format("{}{}{}{}{}", text.empty() ? "not clean: " : ", ", more ? "more than " : "",
+                        counts ? facts[name].dump() : "", counts ? " " : "", factLabel(name));
+  }
+  return text;
+}
+
+}  // namespace
+
+void addCheckOptions(CLI::App& command, CheckRequest& request) {
+  command.add_option("MESH", request.file, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_flag("--allow-boundary", request.allowBoundary, "Edges with one face are no fault");
+  command.add_option("--json", request.json, "The same for programs; - is standard output")->type_name("FILE");
+  command.add_flag("--quiet", request.quiet, "No text and no progress bar");
+  addThreads(command, request.threads);
+  command.footer(
+      "Exit code 0 if the mesh is clean: the oriented boundary of a solid, without boundary edges, non-manifold edges\n"
+      "and vertices, misoriented edges, duplicate, degenerate and zero-area faces, non-finite vertices and triangles\n"
+      "that intersect, and not inside out. Unused vertices are no fault. 1 if it is not, or cannot be read.\n"
+      "Example: pdc check part.ply");
+}
+
+bool runCheck(const CheckRequest& request) {
+  checkJsonPath(request.json);
+  Json facts = detail::withThreads(request.threads.value_or(0), [&] { return factsOf(request); });
+  facts["faults"] = faultsIn(facts, request.allowBoundary);
+  facts["clean"] = facts["faults"].empty();
+
+  writeJson(facts, request.json);
+  if (request.json.empty() && !request.quiet) {
+    Json shown = facts;
+    for (const char* name : {"faults", "clean"}) shown.erase(name);
+    printFacts(shown);
+    fmt::print("{}\n", verdict(facts));
+  }
+  return facts["clean"].get<bool>();
+}
+
+}  // namespace pdc

@@ -1,0 +1,112 @@
+#include "commands/info_facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/input_kind.h"
+#include "pdc/extract/contour.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/io/vdb/vdb_reader.h"
+
+namespace pdc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json toJson(const VdbGridInfo& grid) {
+  Json facts{{"name", grid.name},
+             {"value_type", grid.valueType},
+             {"class", grid.gridClass},
+             {"transform", grid.transform},
+             {"voxel_size", grid.voxelSize},
+             {"saved_as_half", grid.savedAsHalf},
+             {"contourable", grid.contourable},
+             {"active_voxels", grid.activeVoxels}};
+  if (grid.activeVoxels > 0) {
+    facts["index_lo"] = grid.boundsLo;
+    facts["index_hi"] = grid.boundsHi;
+  }
+  if (grid.contourable) {
+    facts["background"] = grid.background;
+    if (grid.activeVoxels > 0) {
+      facts["value_min"] = grid.valueMin;
+      facts["value_max"] = grid.valueMax;
+    }
+  }
+  return facts;
+}
+
+Json gridFacts(const std::filesystem::path& path) {
+  Json facts{{"kind", "grids"}, {"grids", Json::array()}};
+  for (const VdbGridInfo& grid : listVdbGrids(path)) facts["grids"].push_back(toJson(grid));
+  return facts;
+}
+
+/// As FieldSource counts them: a hair over a whole number of voxels is that number.
+long long cellsAlong(double side, double voxelSize) {
+  constexpr double kHair = 1e-9;  // voxels
+  return std::max(1LL, std::llround(std::ceil(side / voxelSize - kHair)));
+}
+
+Json sceneFacts(const std::filesystem::path& path) {
+  const Scene scene = readScene(path);
+  Json cells = Json::array();
+  for (int axis = 0; axis < 3; ++axis)
+    cells.push_back(cellsAlong(scene.box.hi[axis] - scene.box.lo[axis], scene.voxelSize));
+  const double sigma = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
+  Json facts{{"kind", "scene"}};
+  if (!scene.name.empty()) facts["name"] = scene.name;
+  facts.update({{"box_lo", toJson(scene.box.lo)},
+                {"box_hi", toJson(scene.box.hi)},
+                {"voxel_size", scene.voxelSize},
+                {"cells", cells},
+                {"iso", scene.iso},
+                {"sigma_n", std::isinf(sigma) ? Json("inf") : Json(sigma)}});
+  return facts;
+}
+
+Json factsByKind(const std::filesystem::path& path) {
+  switch (inputKind(path)) {
+    case InputKind::kGrid:
+      return gridFacts(path);
+    case InputKind::kScene:
+      return sceneFacts(path);
+    default:
+      return meshFacts(analyze(readMesh(path)));
+  }
+}
+
+}  // namespace
+
+Json meshFacts(const MeshReport& report) {
+  return {{"kind", "mesh"},
+          {"vertices", report.vertices},
+          {"quads", report.quads},
+          {"triangles", report.triangles},
+          {"edges", report.edges},
+          {"euler_number", report.eulerNumber},
+          {"components", report.components},
+          {"boundary_edges", report.boundaryEdges},
+          {"non_manifold_edges", report.nonManifoldEdges},
+          {"non_manifold_vertices", report.nonManifoldVertices},
+          {"misoriented_edges", report.misorientedEdges},
+          {"unused_vertices", report.unusedVertices},
+          {"degenerate_faces", report.degenerateFaces},
+          {"duplicate_faces", report.duplicateFaces},
+          {"non_finite_vertices", report.nonFiniteVertices},
+          {"area", report.area},
+          {"volume", report.volume},
+          {"bounds_lo", toJson(report.bounds.lo)},
+          {"bounds_hi", toJson(report.bounds.hi)}};
+}
+
+Json gatherFacts(const std::filesystem::path& path) {
+  Json facts{{"file", path.string()}};
+  facts.update(factsByKind(path));
+  return facts;
+}
+
+}  // namespace pdc

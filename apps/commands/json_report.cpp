@@ -1,0 +1,90 @@
+#include "commands/json_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "io/file/atomic_file.h"
+
+namespace pdc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The most memory this program has had in use; 0 if the system does not say. Not getrusage, whose figure starts at
+/// that of the program that started this one.
+std::size_t peakMemoryBytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    std::size_t kibibytes = 0;
+    if (key == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Json toJson(const MeshRequest& request, const MeshRun& run) {
+  const std::optional<double> sigma = run.options.sigmaNormal;
+  const unsigned allThreads = std::thread::hardware_concurrency();
+  const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
+  return {{"input", request.input.string()},
+          {"output", request.output.string()},
+          {"vertices", run.vertices},
+          {"quads", run.quads},
+          {"triangles", run.triangles},
+          {"boundary_edges", run.contour.boundaryEdges},
+          {"blocks", run.contour.blocks},
+          {"crossings", run.contour.crossings},
+          {"crossings_without_normal", run.contour.crossingsWithoutNormal},
+          {"clamped_vertices", run.contour.clamped},
+          {"out_of_cell_vertices", run.contour.outOfCell},
+          {"multi_vertex_cells", run.contour.multiVertexCells},
+          {"shortened_vertices", run.contour.shortened},
+          {"drawn_in_vertices", run.contour.drawnIn},
+          {"forced_diagonals", run.contour.forcedDiagonals},
+          {"fans", run.contour.fans},
+          {"uncertified_pairs", run.contour.uncertified},
+          {"iso", run.iso},
+          {"sigma_n", !sigma               ? Json("auto")
+                      : std::isinf(*sigma) ? Json("inf")
+                                           : Json(*sigma)},
+          {"normal_noise", run.contour.normalNoise},
+          {"sigma_grid", request.sigmaGrid ? Json(*request.sigmaGrid) : Json()},
+          {"weight_grid", request.weightGrid ? Json(*request.weightGrid) : Json()},
+          {"placement", request.placement},
+          {"hermite", run.hermite},
+          {"value_noise_voxels", run.valueNoise},
+          {"threads", threads},
+          {"bytes_written", run.bytesWritten},
+          {"peak_memory_bytes", peakMemoryBytes()},
+          {"warnings", run.warnings},
+          {"seconds",
+           {{"read", run.secondsRead},
+            {"contour", run.secondsContour},
+            {"write", run.secondsWrite},
+            {"total", run.secondsTotal}}}};
+}
+
+void checkJsonPath(const std::filesystem::path& path) {
+  if (!path.empty() && path != "-") detail::checkWritable(path);
+}
+
+void writeJson(const Json& json, const std::filesystem::path& path) {
+  if (path.empty()) return;
+  // File names need not be UTF-8; JSON has to be.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (path == "-") {
+    fmt::print("{}", text);
+    return;
+  }
+  detail::AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+}  // namespace pdc

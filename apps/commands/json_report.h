@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands/mesh_request.h"
+
+namespace pdc {
+
+/// What one `pdc mesh` did, as far as the request does not say it. Seconds are wall-clock time.
+struct MeshRun {
+  ContourOptions options;
+  ContourReport contour;
+  double iso = 0;
+  std::string hermite;    ///< See MeshInput.
+  double valueNoise = 0;  ///< See MeshInput.
+  std::size_t vertices = 0, quads = 0, triangles = 0;
+  std::size_t bytesWritten = 0;
+  double secondsRead = 0, secondsContour = 0, secondsWrite = 0, secondsTotal = 0;
+  std::vector<std::string> warnings;
+};
+
+[[nodiscard]] nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run);
+
+/// Throws Error unless a report can be written to `path`. Empty (no report) and "-" (standard output) always can.
+void checkJsonPath(const std::filesystem::path& path);
+
+/// Writes to a file, which appears only when it is complete, or to standard output for "-". Nothing for an empty path.
+void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path);
+
+}  // namespace pdc

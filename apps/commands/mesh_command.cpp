@@ -1,0 +1,130 @@
+#include "commands/mesh_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "terminal/busy_sign.h"
+#include "terminal/interrupt.h"
+#include "commands/json_report.h"
+#include "commands/mesh_input.h"
+#include "pdc/io/mesh/mesh_writer.h"
+#include "terminal/progress_bar.h"
+
+namespace pdc {
+namespace {
+
+/// Seconds since it was made or last asked.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - mLast;
+    mLast = now;
+    return passed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point mLast = std::chrono::steady_clock::now();
+};
+
+void warn(MeshRun& run, const std::string& message) {
+  run.warnings.push_back(message);
+  std::fputs(fmt::format("pdc: warning: {}\n", message).c_str(), stderr);
+}
+
+void checkSurface(const MeshRequest& request, const MeshInput& input, const Mesh& mesh, MeshRun& run) {
+  if (!mesh.empty()) return;
+  const std::string message = input.whyEmpty() + "; the mesh is empty";
+  if (request.requireSurface) throw Error(message);
+  warn(run, message);
+}
+
+/// Far from the origin the output's single precision is coarser than the vertices were placed.
+void checkPrecision(const MeshInput& input, const Mesh& mesh, MeshRun& run) {
+  constexpr double kTolerated = 1e-3;  // voxels
+  float farthest = 0;
+  for (const Vec3f& p : mesh.positions) {
+    farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  const double spacing = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
+  const double inVoxels = spacing / input.source->map().voxelSize();
+  if (inVoxels > kTolerated) {
+    warn(run, fmt::format("far from the origin: at coordinate {:.6g} single precision has steps of {:.2g} voxels",
+                          farthest, inVoxels));
+  }
+}
+
+Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
+  Stopwatch stopwatch;
+  const MeshInput input = [&] {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
+    return openMeshInput(request);
+  }();
+  run.secondsRead = stopwatch.lap();
+  if (input.refusedNoise > 0)
+    warn(run,
+         fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
+  run.iso = input.iso;
+  run.hermite = input.hermite;
+  run.valueNoise = input.valueNoise;
+  run.options = request.contourOptions(input.sigmaNormal);
+
+  Mesh mesh;
+  {
+    ProgressBar bar(!request.quiet);
+    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+    mesh = contour(*input.source, run.options, &run.contour, {.progress = show, .stop = &interruptFlag()});
+  }
+  run.secondsContour = stopwatch.lap();
+  checkSurface(request, input, mesh, run);
+  checkPrecision(input, mesh, run);
+  return mesh;
+}
+
+void printSummary(const MeshRequest& request, const MeshRun& run) {
+  const std::size_t open = run.contour.boundaryEdges;
+  const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
+  fmt::print("{}: {} vertices, {} {}, {}; {} bytes\n", request.output.string(), run.vertices,
+             run.options.triangles ? run.triangles : run.quads, run.options.triangles ? "triangles" : "quads", boundary,
+             run.bytesWritten);
+  if (run.hermite == "distance")
+    fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
+  if (!run.options.sigmaNormal) fmt::print("noise of the normals {:.2g}\n", run.contour.normalNoise);
+  fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
+             run.secondsContour, run.secondsWrite);
+}
+
+}  // namespace
+
+void runMesh(const MeshRequest& request) {
+  checkMeshRequest(request);
+  checkMeshPath(request.output);
+  checkJsonPath(request.json);
+
+  MeshRun run;
+  Stopwatch total;
+  const Mesh mesh = makeMesh(request, run);
+  run.vertices = mesh.positions.size();
+  run.quads = mesh.quads.size();
+  run.triangles = mesh.triangles.size();
+
+  Stopwatch stopwatch;
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
+    run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
+  }
+  run.secondsWrite = stopwatch.lap();
+  run.secondsTotal = total.lap();
+
+  writeJson(toJson(request, run), request.json);
+  if (!request.quiet && request.json != "-") printSummary(request, run);
+}
+
+}  // namespace pdc

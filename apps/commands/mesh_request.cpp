@@ -1,0 +1,155 @@
+#include "commands/mesh_request.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "commands/input_kind.h"
+#include "io/mesh/mesh_format.h"
+#include "terminal/numbers.h"
+#include "pdc/error.h"
+
+namespace pdc {
+namespace {
+
+const std::map<std::string, Placement> kPlacements{
+    {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
+
+// FieldSource's own limit on voxels per axis.
+constexpr int kMaxResolution = 1 << 20;
+
+void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  const auto group = "Surface";
+  addReal(command, "--iso", request.iso, finite, "a finite number",
+          "Isovalue (level sets and scenes: 0, fog volumes: 0.5)")
+      ->type_name("V")
+      ->group(group);
+  const auto sigma = [&request](const std::string& text) {
+    const std::vector<double> value = parseReals(text, ',');
+    const bool number = value.size() == 1 && value[0] >= 0;
+    if (text != "auto" && !number)
+      throw CLI::ValidationError("--sigma-n", fmt::format("'{}' is not a number >= 0 or inf, or auto", text));
+    request.sigmaFromData = !number;
+    request.sigmaNormal = number ? std::optional(value[0]) : std::nullopt;
+  };
+  command
+      .add_option_function<std::string>("--sigma-n", sigma,
+                                        "Assumed noise of the unit normals (0.05); auto: from the data")
+      ->type_name("S|inf|auto")
+      ->group(group);
+  command
+      .add_option("--placement", request.placement,
+                  "Where vertices may lie (certified): free as far as no faces\n"
+                  "intersect, in their cell, or free without that promise")
+      ->type_name("WHERE")
+      ->check(CLI::IsMember(kPlacements))
+      ->group(group);
+  command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
+  command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
+  command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
+  command.add_flag("--confidence", request.confidence, "A confidence from 0 to 1 per vertex, in a .ply")->group(group);
+  command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner), in a .ply")->group(group);
+  command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
+}
+
+void addInputOptions(CLI::App& command, MeshRequest& request) {
+  const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
+  const auto grids = "For .vdb inputs";
+  command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
+  command.add_option("--nan", request.nan, "What NaN and infinite voxels are (error)")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"error", "outside"}))
+      ->group(grids);
+  command
+      .add_option("--hermite", request.hermite,
+                  "Where planes come from (auto): gradients at crossings; or,\n"
+                  "beside creases, distances; auto: distances if the grid has them")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"auto", "gradient", "distance"}))
+      ->group(grids);
+  addNoiseGrids(command, request, grids);
+  const auto scenes = "For scenes";
+  addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
+      ->type_name("H")
+      ->group(scenes);
+  addInteger(command, "--resolution", request.resolution, 1, kMaxResolution, "Cells along the longest side of the box")
+      ->type_name("N")
+      ->group(scenes);
+}
+
+void refuseOther(bool given, const char* name, const char* takers) {
+  if (given) throw CLI::ValidationError(name, fmt::format("goes with {} only", takers));
+}
+
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal() ||
+         std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
+  return {.sigmaNormal = sigmaFromData ? std::nullopt : std::optional(sigmaNormal.value_or(assumedSigma)),
+          .placement = kPlacements.at(placement),
+          .triangles = triangles,
+          .normals = normals,
+          .confidence = confidence,
+          .ranks = rank,
+          .threads = threads.value_or(0)};
+}
+
+void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
+  command
+      .add_option("--sigma-grid", request.sigmaGrid,
+                  "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+      ->type_name("NAME")
+      ->group(group);
+}
+
+void addMeshOptions(CLI::App& command, MeshRequest& request) {
+  command.add_option("INPUT", request.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
+  command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  addSurfaceOptions(command, request);
+  addInputOptions(command, request);
+  const auto group = "Output";
+  command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
+  command.add_option("--json", request.json, "Report for programs; - is standard output")
+      ->type_name("FILE")
+      ->group(group);
+  command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
+  addThreads(command, request.threads)->group(group);
+}
+
+void checkMeshRequest(const MeshRequest& request) {
+  switch (inputKind(request.input)) {
+    case InputKind::kGrid:
+      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
+      refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      break;
+    case InputKind::kScene:
+      refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
+      refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
+      refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
+      refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
+      refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
+      break;
+    case InputKind::kOther:
+      throw Error(
+          fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
+  }
+  const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
+  refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");
+  refuseOther(request.rank && otherThanPly(), "--rank", ".ply outputs");
+  if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
+  if (request.json.empty()) return;
+  if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");
+  if (sameFile(request.json, request.output)) throw CLI::ValidationError("--json", "would replace OUTPUT");
+}
+
+}  // namespace pdc

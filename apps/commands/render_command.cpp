@@ -1,0 +1,130 @@
+#include "commands/render_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "terminal/busy_sign.h"
+#include "terminal/interrupt.h"
+#include "terminal/numbers.h"
+#include "parallel/with_threads.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/png_writer.h"
+#include "pdc/mesh/distance.h"
+#include "terminal/progress_bar.h"
+#include "terminal/view_option.h"
+
+namespace pdc {
+namespace {
+
+[[noreturn]] void refuse(const char* option, const std::string& text, const std::string& wanted) {
+  throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, wanted));
+}
+
+void parseSize(const std::string& text, RenderRequest& request) {
+  const std::vector<double> size = parseReals(text, 'x');
+  const auto sound = [](double side) { return side >= 1 && side <= kMaxImageSide && side == std::floor(side); };
+  if (size.size() != 2 || !sound(size[0]) || !sound(size[1]))
+    refuse("--size", text, fmt::format("WxH, whole numbers from 1 to {}", kMaxImageSide));
+  request.width = static_cast<int>(size[0]);
+  request.height = static_cast<int>(size[1]);
+}
+
+/// What the colours show: a property of the vertices, or their distance to the reference.
+Buffer<float> valuesOf(const RenderRequest& request, const Mesh& mesh, const Monitor& monitor) {
+  if (!request.reference.empty()) {
+    const Mesh reference = readMesh(request.reference);
+    Buffer<float> values;
+    for (const double d : distances(mesh.positions, reference, monitor)) values.push_back(static_cast<float>(d));
+    return values;
+  }
+  auto values = readVertexProperty(request.mesh, request.shading);
+  if (!values)
+    throw Error(fmt::format("{}: its vertices have no property \"{}\"{}", request.mesh.string(), request.shading,
+                            request.shading == "error" ? "; give one, or a --reference" : ""));
+  return *values;
+}
+
+float largest(const Buffer<float>& values) {
+  float most = 0;
+  for (const float v : values)
+    if (std::isfinite(v)) most = std::max(most, v);
+  return most;
+}
+
+Image draw(const RenderRequest& request, std::string& scale) {
+  const Mesh mesh = [&] {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.mesh.filename().string());
+    return readMesh(request.mesh);
+  }();
+  if (mesh.empty())
+    throw Error(fmt::format("{}: the mesh has no faces, so there is nothing to draw", request.mesh.string()));
+  ProgressBar bar(!request.quiet);
+  const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+  const Monitor monitor{.progress = show, .stop = &interruptFlag()};
+  RenderOptions options{.width = request.width,
+                        .height = request.height,
+                        .towardsViewer = request.towardsViewer,
+                        .shading = request.shading == "normal" ? Shading::kNormal : Shading::kClay,
+                        .edges = request.edges};
+  Buffer<float> values;
+  if (request.shading == "confidence" || request.shading == "error") {
+    values = valuesOf(request, mesh, monitor);
+    options.shading = Shading::kValues;
+    options.values = values;
+    const bool share = request.shading == "confidence";
+    options.valueHi = request.range ? static_cast<float>(*request.range) : share ? 1 : largest(values);
+    scale = fmt::format("; {} from 0, blue, to {:.6g}, yellow", request.shading, options.valueHi);
+  }
+  return render(mesh, options, monitor);
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& command, RenderRequest& request) {
+  command.add_option("MESH", request.mesh, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.picture, ".png")->required()->type_name("");
+  addView(command, request.towardsViewer);
+  command
+      .add_option_function<std::string>(
+          "--size", [&request](const std::string& text) { parseSize(text, request); }, "Pixels (1024x1024)")
+      ->type_name("WxH");
+  command
+      .add_option("--shading", request.shading,
+                  "Colours (clay): of a matt solid, of the normal's direction,\n"
+                  "of the vertices' property \"confidence\", or of \"error\"")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"normal", "clay", "confidence", "error"}));
+  command.add_option("--reference", request.reference, "For --shading error: the error is the distance to this mesh")
+      ->type_name("MESH");
+  addReal(
+      command, "--range", request.range, [](double v) { return v > 0 && std::isfinite(v); }, "a finite number > 0",
+      "The value that is yellow (confidence: 1, error: the largest)")
+      ->type_name("V");
+  command.add_flag("--edges", request.edges, "The mesh's edges over it");
+  command.add_flag("--quiet", request.quiet, "No summary and no progress bar");
+  addThreads(command, request.threads);
+  command.footer("Example: pdc render part.ply part.png --view front --size 800x600 --edges");
+}
+
+void runRender(const RenderRequest& request) {
+  if (!request.reference.empty() && request.shading != "error")
+    throw CLI::ValidationError("--reference", "goes with --shading error only");
+  checkPngPath(request.picture);
+  std::string scale;
+  const Image image = detail::withThreads(request.threads.value_or(0), [&] { return draw(request, scale); });
+  std::size_t bytes = 0;
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "writing " + request.picture.filename().string());
+    bytes = writePng(image, request.picture);
+  }
+  if (!request.quiet)
+    fmt::print("{}: {} x {} pixels, {} bytes{}\n", request.picture.string(), image.width, image.height, bytes, scale);
+}
+
+}  // namespace pdc

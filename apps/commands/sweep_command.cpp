@@ -1,0 +1,138 @@
+#include "commands/sweep_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "terminal/busy_sign.h"
+#include "commands/input_kind.h"
+#include "terminal/interrupt.h"
+#include "commands/mesh_input.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/mesh/mesh_writer.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/render/render.h"
+#include "pdc/sample/crease_points.h"
+#include "pdc/study/sweep.h"
+#include "pdc/study/sweep_writer.h"
+#include "terminal/progress_bar.h"
+
+namespace pdc {
+namespace {
+
+constexpr int kPictureSide = 480;  // pixels
+
+/// Calls read() and says so.
+template <typename Read>
+auto reading(const std::filesystem::path& path, bool quiet, const Read& read) {
+  const ExitOnInterrupt scope;
+  const BusySign sign(!quiet, "reading " + path.filename().string());
+  return read();
+}
+
+SweepTruth truthOf(const MeshInput& input) {
+  if (input.field == nullptr) return {};
+  return {.field = input.field,
+          .reference = nullptr,
+          .creases = creasePoints(input.field, *input.source, {.stop = &interruptFlag()})};
+}
+
+/// What --reference names: a scene on its own lattice, or a mesh.
+SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
+  if (inputKind(path) == InputKind::kScene) {
+    MeshRequest scene;
+    scene.input = path;
+    return truthOf(reading(path, quiet, [&] { return openMeshInput(scene); }));
+  }
+  auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMesh(path); }));
+  if (mesh->empty()) throw Error(fmt::format("{}: the reference has no faces", path.string()));
+  return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
+}
+
+SweepInput openInput(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
+  MeshInput input = reading(mesh.input, mesh.quiet, [&] { return openMeshInput(mesh); });
+  SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
+  return {std::move(input.source), std::move(truth)};
+}
+
+Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
+  const SweepTruth reference =
+      request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
+  const std::string parameter = request.parameter();
+  SweepInput first = openInput(request, request.mesh, reference);
+  SweepOptions options{.contour = request.mesh.contourOptions(kDefaultSigmaNormal), .truth = {}};
+  if (parameter == "sigma_n") {
+    options.truth = std::move(first.truth);
+    return sweepSigma(*first.source, request.values(), options, monitor);
+  }
+  return sweepInputs(
+      parameter, request.values(),
+      [&](double value) {
+        MeshRequest mesh = request.mesh;
+        (parameter == "iso" ? mesh.iso : mesh.voxelSize) = value;
+        return openInput(request, mesh, reference);
+      },
+      options, monitor);
+}
+
+/// All from where the largest of the meshes fills the picture. A step without surface has a blank one.
+std::vector<Image> drawAll(const SweepRequest& request, const std::vector<Mesh>& meshes, const Monitor& monitor) {
+  RenderOptions options{.width = kPictureSide, .height = kPictureSide, .threads = request.mesh.threads.value_or(0)};
+  options.camera = fitCamera(meshes, request.towardsViewer, kPictureSide, kPictureSide);
+  std::vector<Image> pictures;
+  for (const Mesh& mesh : meshes) {
+    Image blank{kPictureSide, kPictureSide, {}};
+    blank.pixels.resize(kPictureSide * kPictureSide, {255, 255, 255});
+    const auto show = [&](const char* stage, double share) {
+      monitor.progress(stage, (static_cast<double>(pictures.size()) + share) / static_cast<double>(meshes.size()));
+    };
+    pictures.push_back(mesh.empty() ? blank : render(mesh, options, {.progress = show, .stop = monitor.stop}));
+  }
+  return pictures;
+}
+
+void writeAll(const SweepRequest& request, const Sweep& sweep, const SweepDescription& description) {
+  const ExitOnInterrupt scope;
+  const BusySign sign(!request.mesh.quiet, "writing " + request.folder.string());
+  for (std::size_t i = 0; request.meshes && i < sweep.meshes.size(); ++i)
+    static_cast<void>(writeMesh(sweep.meshes[i],
+                                request.folder / fmt::format("{}_{:.6g}.ply", sweep.parameter, sweep.steps[i].value)));
+  writeSweep(sweep, description, request.folder);
+}
+
+void printSummary(const SweepRequest& request, const Sweep& sweep) {
+  const auto shown = [](const std::optional<double>& v) { return v ? fmt::format("{:.4f}", *v) : std::string("-"); };
+  fmt::print("{:>10} {:>12} {:>12} {:>10} {:>12} {:>10} {:>8}\n", sweep.parameter, "vertex RMS", "crease RMS",
+             "roughness", "min angle 1%", "self-int.", "seconds");
+  for (const SweepStep& step : sweep.steps)
+    fmt::print("{:>10.6g} {:>12} {:>12} {:>10.4f} {:>12.2f} {:>10} {:>8.3f}\n", step.value, shown(step.vertexRms),
+               shown(step.creaseRms), step.roughness, step.minimumAngle[0], step.selfIntersections, step.seconds);
+  fmt::print("Lengths in voxels, angles in degrees. {}\n{}\n", sweep.reason, (request.folder / "index.html").string());
+}
+
+}  // namespace
+
+void runSweep(SweepRequest request, const std::string& command) {
+  settleSweepRequest(request);
+  makeSweepFolder(request.folder);
+
+  Sweep sweep;
+  SweepDescription description{
+      .title = fmt::format("{}: sweep over {}", request.mesh.input.filename().string(), request.parameter()),
+      .command = command,
+      .pictures = {}};
+  {
+    ProgressBar bar(!request.mesh.quiet);
+    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+    const Monitor monitor{.progress = show, .stop = &interruptFlag()};
+    sweep = contourAll(request, monitor);
+    if (std::all_of(sweep.meshes.begin(), sweep.meshes.end(), [](const Mesh& m) { return m.empty(); }))
+      throw Error(fmt::format("{}: no surface at any value; there is nothing to compare", request.mesh.input.string()));
+    description.pictures = drawAll(request, sweep.meshes, monitor);
+  }
+  writeAll(request, sweep, description);
+  if (!request.mesh.quiet) printSummary(request, sweep);
+}
+
+}  // namespace pdc

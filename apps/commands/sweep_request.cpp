@@ -1,0 +1,110 @@
+#include "commands/sweep_request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "terminal/numbers.h"
+#include "terminal/view_option.h"
+
+namespace pdc {
+namespace {
+
+void addReals(CLI::App& command, const std::string& name, std::vector<double>& target,
+              const std::function<bool(double)>& accepts, const std::string& limit, const std::string& help) {
+  const auto take = [name, limit, &target, accepts](const std::string& text) {
+    target = parseReals(text, ',');
+    std::vector<double> sorted = target;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      throw CLI::ValidationError(name, fmt::format("'{}' has a value twice", text));
+    if (target.empty() || !std::all_of(target.begin(), target.end(), accepts))
+      throw CLI::ValidationError(name, fmt::format("'{}' is not a list of {}, separated by commas", text, limit));
+  };
+  command.add_option_function<std::string>(name, take, help)->type_name("LIST");
+}
+
+bool isPlain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("-_./,=:+@%").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string SweepRequest::parameter() const {
+  return isos.size() > 1 ? "iso" : voxelSizes.size() > 1 ? "voxel_size" : "sigma_n";
+}
+
+const std::vector<double>& SweepRequest::values() const {
+  return isos.size() > 1 ? isos : voxelSizes.size() > 1 ? voxelSizes : sigmas;
+}
+
+void addSweepOptions(CLI::App& command, SweepRequest& request) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  MeshRequest& mesh = request.mesh;
+  command.add_option("INPUT", mesh.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
+  command.add_option("OUTDIR", request.folder, "Folder for the report; made if it is not there")
+      ->required()
+      ->type_name("");
+  addReals(
+      command, "--sigma-n", request.sigmas, [](double v) { return v >= 0; }, "numbers >= 0 or inf",
+      "Assumed noise of the unit normals (0,0.05,0.1,0.25,inf)");
+  addReals(command, "--iso", request.isos, finite, "finite numbers", "Isovalues");
+  addReals(
+      command, "--voxel-size", request.voxelSizes, [](double v) { return v > 0 && std::isfinite(v); },
+      "finite numbers > 0", "Of a scene: edges of a cell, in world units");
+  command.add_option("--placement", mesh.placement, "Where vertices may lie (certified), as for pdc mesh")
+      ->type_name("WHERE")
+      ->check(CLI::IsMember({"certified", "cell", "free"}));
+  command.add_flag("--open", mesh.open, "Surface ends where the data ends");
+  command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
+  addNoiseGrids(command, mesh, "OPTIONS");
+  command
+      .add_option("--reference", request.reference,
+                  "What the surface should be, a mesh or a scene\n(a scene that is swept is its own)")
+      ->type_name("FILE");
+  command.add_flag("--meshes", request.meshes, "Also the meshes, as .ply");
+  addView(command, request.towardsViewer);
+  command.add_flag("--quiet", mesh.quiet, "No summary and no progress bar");
+  addThreads(command, mesh.threads);
+  command.footer(
+      "One of --sigma-n, --iso and --voxel-size may have several values; that one is swept.\n"
+      "Example: pdc sweep part.vdb report --sigma-n 0,0.02,0.05,0.1,inf --reference part.yaml");
+}
+
+void settleSweepRequest(SweepRequest& request) {
+  const std::vector<std::pair<const char*, const std::vector<double>*>> lists{
+      {"--sigma-n", &request.sigmas}, {"--iso", &request.isos}, {"--voxel-size", &request.voxelSizes}};
+  const char* swept = nullptr;
+  for (const auto& [name, values] : lists) {
+    if (values->size() < 2) continue;
+    if (swept != nullptr) throw CLI::ValidationError(name, fmt::format("and {} have several values", swept));
+    swept = name;
+  }
+  if (swept == nullptr && request.sigmas.empty())
+    request.sigmas = {0, 0.05, 0.1, 0.25, std::numeric_limits<double>::infinity()};
+  if (!request.isos.empty()) request.mesh.iso = request.isos.front();
+  if (!request.voxelSizes.empty()) request.mesh.voxelSize = request.voxelSizes.front();
+  if (!request.sigmas.empty()) request.mesh.sigmaNormal = request.sigmas.front();
+  checkMeshRequest(request.mesh);
+}
+
+std::string commandLine(const std::vector<std::string>& arguments) {
+  std::string line = "pdc";
+  for (const std::string& argument : arguments) {
+    line += ' ';
+    if (!argument.empty() && std::all_of(argument.begin(), argument.end(), isPlain)) {
+      line += argument;
+      continue;
+    }
+    line += '\'';
+    for (const char c : argument) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace pdc

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <openvdb/Grid.h>
+
+#include <memory>
+#include <optional>
+
+#include "pdc/sample/hermite_source.h"
+
+namespace pdc {
+
+/// Where a grid's planes come from.
+enum class HermiteMode {
+  kAuto,      ///< kDistance where the grid holds distances: see GridSource.
+  kGradient,  ///< Each crossing's plane from the gradient there, whatever the values mean.
+  kDistance,  ///< Beside creases, from the distances and gradients of the voxels around: see GridSource.
+};
+
+struct GridSourceOptions {
+  /// Isovalue in the grid's own units. Default: 0 for level sets, 0.5 for fog volumes, booleans and unclassified
+  /// densities.
+  std::optional<double> iso{};
+  /// false: the tree is a function on all of space, tiles and background included, so the surface is closed.
+  /// true: only cells whose eight corners are active take part, so the surface ends where activity ends.
+  bool open = false;
+  /// false: NaN and infinite voxels are an error. true: NaN and +inf are outside, -inf is inside (with the grid's sense
+  /// of inside), and none of them is used for a normal.
+  bool acceptNonFinite = false;
+  HermiteMode hermite = HermiteMode::kAuto;
+  /// What is known of each value: scalar grids with the same transform; null where nothing is. Outside of what is
+  /// active they have their background, as the grid itself. Values that are negative or not finite count as 0 (see
+  /// GridSource::refusedNoise).
+  /// Standard deviation of the value, in its own units.
+  openvdb::GridBase::ConstPtr sigma{};
+  /// How much the value counts beside others, like the weights of a truncated signed distance; only ratios matter.
+  openvdb::GridBase::ConstPtr weight{};
+};
+
+/// A scalar OpenVDB grid (float, double, int32, int64, bool) on its own lattice, read straight from its leaf buffers.
+///
+/// Inside is value < iso; for fog volumes value > iso; for unclassified grids the side of iso that the background is
+/// not on. Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged
+/// over the four cells at the edge), through the inverse transpose of the transform. Values at or beyond the background
+/// of a level set are treated as clamped: one-sided differences replace central ones there. The grid must not change
+/// while the source lives. Making one finds the tree's leaves, in parallel on the calling thread's arena. \throws Error
+/// for other value types, singular or unsupported transforms, and leaves beyond index 2³⁰.
+///
+/// Near a crease of a distance function central differences mix the normals of both sides, and linear crossings are
+/// off. There planes come from one-sided slopes of the voxels around instead, as far as they have the length that
+/// gradients of distances have and predict the values beside them (docs/features.md). HermiteMode::kAuto does so for
+/// float and double grids that are level sets, or unclassified about a positive background, with an affine transform,
+/// if over a sample of the band the median of | |∇φ| − 1 | is at most 0.15 and the surface is not rough at the size of
+/// a voxel, as scanned meshes are whose facets would all look like creases; \throws Error where kDistance is asked for
+/// and the transform is not affine.
+///
+/// With a σ grid each crossing's plane has its own σn: the σ there, over the length of the gradient, propagated through
+/// the differences that the normal is made of; planes from distances take the mean σ of their block in place of the
+/// noise that is measured. With a weight grid the quadric of a crossing counts by the weight there; planes from
+/// distances do not. \throws Error for such a grid that is the grid itself, has another transform or is not scalar.
+class GridSource final : public HermiteSource {
+ public:
+  explicit GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options = {});
+  ~GridSource() override;
+
+  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
+  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                   HermiteBlock& hermite) const override;
+  void expect(const Coord& block) const override;
+  void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
+                         const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
+                         FeaturePlanes& planes) const override;
+  [[nodiscard]] bool knowsNoise() const override;
+  [[nodiscard]] bool knowsSigma() const override;
+  void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
+                 PlaneNoise& noise) const override;
+  [[nodiscard]] const LatticeMap& map() const override;
+
+  [[nodiscard]] double iso() const;
+  [[nodiscard]] bool insideIsHigher() const;
+  /// True if planes beside creases come from distances.
+  [[nodiscard]] bool usesDistances() const;
+  /// Standard deviation of white noise in the distances, in voxels, as estimated; 0 if none are used.
+  [[nodiscard]] double valueNoise() const;
+  /// Active values of the σ and weight grids that are negative or not finite.
+  [[nodiscard]] std::size_t refusedNoise() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> mImpl;
+};
+
+}  // namespace pdc

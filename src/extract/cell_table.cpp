@@ -1,7 +1,0 @@
-#include "extract/cell_table.h"
-
-namespace pdc::detail {
-
-constinit const std::array<CellEntry, 256> kCellTable = makeCellTable();
-
-}  // namespace pdc::detail

@@ -1,0 +1,146 @@
+#include "extract/certify/fans.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace pdc::detail {
+namespace {
+
+/// New vertices keep this far from lattice points, where fans of several edges would meet.
+constexpr double kInner = 0.01;
+
+}  // namespace
+
+struct Fans::Crossings {
+  Crossings(const HermiteSource& source, const Coord& coord, const BlockSigns& signs, std::int32_t index)
+      : block(index), edges(signs) {
+    source.fillHermite(coord, signs, edges, hermite);
+  }
+  std::int32_t block;
+  EdgeIndex edges;
+  HermiteBlock hermite;
+};
+
+Fans::Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const QuadRings& rings, Mesh& mesh)
+    : mSource(source), mBlocks(blocks), mRings(rings), mMesh(mesh), mIsFan((mesh.quads.size() + 63) / 64) {}
+
+Fans::~Fans() = default;
+
+Vec3d Fans::crossing(const CellRef& c, int edge) {
+  if (mCrossings == nullptr || mCrossings->block != c.block)
+    mCrossings = std::make_unique<Crossings>(mSource, mBlocks.coords[c.block], mBlocks.signs[c.block], c.block);
+  const int axis = edgeAxis(edge), corner = edgeLowCorner(edge);
+  const int x = c.x + (corner & 1), y = c.y + (corner >> 1 & 1), z = c.z + (corner >> 2);
+  const double t = mCrossings->hermite.t[mCrossings->edges(axis, x, y, z)];
+  const Coord& b = mBlocks.coords[c.block];
+  Vec3d p{kBlockSize * double(b[0]) + x, kBlockSize * double(b[1]) + y, kBlockSize * double(b[2]) + z};
+  p[axis] += std::clamp(t, kInner, 1 - kInner);
+  return p;
+}
+
+std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
+  const auto vertex = static_cast<std::uint32_t>(mMesh.positions.size());
+  mMesh.positions.push_back(vecCast<float>(mSource.map().position(position)));
+  if (!mMesh.normals.empty()) {
+    Vec3d sum{};
+    for (const std::uint32_t v : mRings.vertices(at)) sum += vecCast<double>(mMesh.normals[v]);
+    const double l = length(sum);
+    mMesh.normals.push_back(vecCast<float>(l > 0 ? sum * (1 / l) : Vec3d{}));
+  }
+  return vertex;
+}
+
+void Fans::add(const EdgeRef& e) {
+  const std::uint64_t face = mRings.face(e);
+  if (has(face)) return;
+  mIsFan[face / 64] |= std::uint64_t{1} << face % 64;
+  mCenter.emplace(e, append(crossing(mRings.cells(e)[0], ringEdge(e.axis(), 0)), e));
+}
+
+bool Fans::split(const CellRef& c, std::vector<EdgeRef>& changed) {
+  if (!mSplit.insert(key(c)).second) return false;
+  mRings.forEachEdge(c, [&](const EdgeRef& e, int) {
+    add(e);
+    changed.push_back(e);
+    const std::array<CellRef, 4> cells = mRings.cells(e);
+    for (int k = 0; k < 4; ++k) {
+      if (!splitBetween(cells[k], cells[(k + 1) & 3])) continue;
+      const CellSegment s = segment(e, cells[k], k);
+      const Segment joined = segmentKey(cells[k], s);
+      if (mFaceVertex.contains(joined)) continue;
+      const Vec3d middle = (crossing(cells[k], s.edge0) + crossing(cells[k], s.edge1)) * 0.5;
+      mFaceVertex.emplace(joined, append(middle, e));
+    }
+  });
+  return true;
+}
+
+Fans::CellSegment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const {
+  const int u = (e.axis() + 1) % 3, v = (e.axis() + 2) % 3;
+  const std::array<int, 4> faceOf{2 * u, 2 * v, 2 * u + 1, 2 * v + 1};
+  const int own = ringEdge(e.axis(), k), code = mRings.code(c);
+  const CellEntry& entry = kCellTable[code];
+  const SpecialCell* special = mRings.block(c.block).findSpecial(key(c).second);
+  const bool flipped = special != nullptr && entry.flipFace != kNone && special->patch == entry.flipped.vertex;
+  const Segments all = segments(code, flipped);
+  for (int i = 0; i < all.size; ++i) {
+    const auto& s = all.at[i];
+    if (s.face == faceOf[k] && (s.edge0 == own || s.edge1 == own)) return {s.edge0, s.edge1};
+  }
+  return {own, own};  // Not reached: every sign-changing edge of a face ends a segment there.
+}
+
+Fans::Segment Fans::segmentKey(const CellRef& c, const CellSegment& s) const {
+  const Coord& b = mBlocks.coords[c.block];
+  const auto lattice = [&](int edge) {
+    const int corner = edgeLowCorner(edge);
+    return LatticeEdge({kBlockSize * b[0] + c.x + (corner & 1), kBlockSize * b[1] + c.y + (corner >> 1 & 1),
+                        kBlockSize * b[2] + c.z + (corner >> 2)},
+                       edgeAxis(edge));
+  };
+  return std::minmax({lattice(s.edge0), lattice(s.edge1)});
+}
+
+void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
+  const Quad ring = mRings.vertices(e);
+  const std::array<CellRef, 4> cells = mRings.cells(e);
+  std::array<std::uint32_t, 8> rim;
+  int n = 0;
+  for (int k = 0; k < 4; ++k) {
+    rim[n++] = ring[k];
+    if (splitBetween(cells[k], cells[(k + 1) & 3]))
+      rim[n++] = mFaceVertex.at(segmentKey(cells[k], segment(e, cells[k], k)));
+  }
+  const bool reversed = mRings.lowInside(e) == mSource.map().mirrored();
+  const std::uint32_t center = mCenter.at(e);
+  for (int i = 0; i < n; ++i) {
+    const std::uint32_t a = rim[i], b = rim[i + 1 == n ? 0 : i + 1];
+    out.push_back(reversed ? Triangle{center, b, a} : Triangle{center, a, b});
+  }
+}
+
+std::size_t Fans::replaceQuads() {
+  std::vector<std::uint64_t> faces;
+  for (const auto& [edge, center] : mCenter) {
+    faces.push_back(mRings.face(edge));
+    std::vector<Triangle> fan;
+    triangles(edge, fan);
+    mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());
+  }
+  std::sort(faces.begin(), faces.end(), std::greater<>());
+  for (const std::uint64_t face : faces) {
+    mMesh.quads[face] = mMesh.quads.back();
+    mMesh.quads.pop_back();
+  }
+
+  // A face vertex lies in two triangles of each fan at its place; where there is one fan, it parts a boundary edge.
+  std::map<std::uint32_t, int> uses;
+  for (const auto& [joined, vertex] : mFaceVertex) uses.emplace(vertex, 0);
+  for (const Triangle& t : mMesh.triangles)
+    for (const std::uint32_t v : t)
+      if (const auto it = uses.find(v); it != uses.end()) ++it->second;
+  return static_cast<std::size_t>(
+      std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second == 2; }));
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,209 @@
+#include "extract/certify/vertex_trial.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "math/lane_loops.h"
+
+namespace pdc::detail {
+namespace {
+
+bool hasVertex(std::span<const std::uint32_t> vertices, std::uint32_t v) {
+  return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+}
+
+Box boxOf(std::span<const Vec3f> points) {
+  Box box(std::array<Vec3f, 1>{points[0]});
+  for (const Vec3f& p : points) box.add(float4(p));
+  return box;
+}
+
+/// For each corner, all bits if it is none of the others.
+std::array<std::uint8_t, 3> notAmong(const Triangle& others, const Triangle& corners) {
+  std::array<std::uint8_t, 3> mask;
+  for (int k = 0; k < 3; ++k)
+    mask[k] = corners[k] == others[0] || corners[k] == others[1] || corners[k] == others[2] ? 0 : 0xFF;
+  return mask;
+}
+
+}  // namespace
+
+VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex,
+                         std::span<const Vec3f> places)
+    : mNearFaces(near), mTests(tests), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
+  const Box ofPlaces = boxOf(places);
+  Box all = ofPlaces;
+  tests.rings().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
+    mReach.push_back({tests.rings().lowEnd(e), near.farReach(e)});
+    all.add(Box(tests.corners(tests.rings().vertices(e))));
+  });
+  addFaces(all);
+  findSides();
+  mOrder.resize(mPieces.size());
+  std::iota(mOrder.begin(), mOrder.end(), std::size_t{0});
+  for (OwnTriangle& own : mOwn) addNear(own, ofPlaces);
+}
+
+/// The faces that may reach into a box.
+void VertexTrial::addFaces(const Box& box) {
+  std::vector<EdgeRef> edges;
+  mNearFaces.facesAbout(box, edges);
+  std::vector<Triangle> triangles;
+  for (const EdgeRef& e : edges) {
+    const std::uint64_t face = mTests.rings().face(e);
+    const Quad* quad = mTests.quad(face);
+    const bool own = quad != nullptr && hasVertex(*quad, mVertex);
+    if (quad != nullptr && !own && box.apartFrom(Box(mTests.corners(*quad)))) continue;
+    mTests.triangles(e, face, triangles);
+    if (own) {
+      addOwn(e, triangles);
+      continue;
+    }
+    for (const Triangle& t : triangles) {
+      if (hasVertex(t, mVertex))
+        addOwn(e, {&t, 1});
+      else
+        mFixed.emplace_back(t, mTests.corners(t));
+    }
+  }
+}
+
+void VertexTrial::addOwn(const EdgeRef& e, std::span<const Triangle> triangles) {
+  mPieces.push_back({mTests.forward(e), mOwn.size(), triangles.size()});
+  for (const Triangle& t : triangles) {
+    OwnTriangle& own = mOwn.emplace_back(OwnTriangle{{t, mTests.corners(t)}, -1, {}, 0, 0, {}, {}});
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] == mVertex) {
+        own.moving = k;
+        continue;
+      }
+      const auto at = std::find(mRim.begin(), mRim.end(), t[k]);
+      own.point[k] = static_cast<std::uint32_t>(at - mRim.begin());
+      if (at == mRim.end()) mRim.push_back(t[k]);
+    }
+  }
+}
+
+void VertexTrial::findSides() {
+  std::vector<Points> points;
+  const auto add = [&points](std::size_t n, auto&& position) {
+    const std::size_t column = 4 * points.size();
+    for (std::size_t i = 0; i < n; i += 4)
+      points.emplace_back(std::array{position(i), position(std::min(i + 1, n - 1)), position(std::min(i + 2, n - 1)),
+                                     position(std::min(i + 3, n - 1))});
+    return static_cast<std::uint32_t>(column);
+  };
+  add(mPlaces.size(), [&](std::size_t i) { return mPlaces[i]; });
+  const std::size_t ofPlaces = points.size();
+  const std::uint32_t firstRim = add(mRim.size(), [&](std::size_t i) { return mTests.position(mRim[i]); });
+  for (OwnTriangle& own : mOwn)
+    for (int k = 0; k < 3; ++k) own.point[k] += k == own.moving ? 0 : firstRim;
+  mColumns = 4 * points.size();
+  mSides.resize(mFixed.size() * mColumns);
+  mOfPlaces.resize(mFixed.size());
+  forEachBlock(bestSimdLevel(), mFixed.size(), [&](std::size_t i) {
+    Sides* to = &mSides[mColumns * i];
+    for (std::size_t k = 0; k < points.size(); ++k, to += 4) {
+      const std::array<Sides, 4> sides = mFixed[i].plane.sides(points[k]);
+      std::copy(sides.begin(), sides.end(), to);
+      if (k < ofPlaces) mOfPlaces[i] = mOfPlaces[i] | all(sides);
+    }
+  });
+}
+
+void VertexTrial::addNear(OwnTriangle& own, const Box& places) {
+  Box box = own.box;
+  if (own.moving >= 0) box.add(places);
+  own.firstNear = mNear.size();
+  for (std::size_t i = 0; i < mFixed.size(); ++i) {
+    const FilteredTriangle& other = mFixed[i];
+    if (box.apartFrom(other.box)) continue;
+    const NearTriangle near{static_cast<std::uint32_t>(i), notAmong(other.vertices, own.vertices)};
+    // Wherever the vertex is, all may be on one side.
+    Sides together = own.moving >= 0 ? mOfPlaces[i] : Sides{};
+    for (int k = 0; k < 3; ++k)
+      if (k != own.moving) together = together | (mSides[mColumns * i + own.point[k]] & near.ownMask[k]);
+    if (!together.same()) mNear.push_back(near);
+  }
+  own.endNear = mNear.size();
+}
+
+inline void VertexTrial::move(const OwnPiece& piece, std::size_t place) {
+  for (OwnTriangle& own : triangles(piece)) {
+    if (own.moving < 0) continue;
+    TriangleCorners corners = own.corners;
+    corners[own.moving] = mPlaces[place];
+    static_cast<FilteredTriangle&>(own) = {own.vertices, corners};
+    own.point[own.moving] = static_cast<std::uint32_t>(place);
+  }
+}
+
+bool VertexTrial::finds(std::size_t place) const {
+  const Vec3d p = mNearFaces.latticePosition(mPlaces[place]);
+  return std::all_of(mReach.begin(), mReach.end(),
+                     [&](const Reach& r) { return NearFaces::distance(r.low, p) <= r.most; });
+}
+
+std::size_t VertexTrial::countOffences(std::size_t place, std::size_t most) {
+  std::size_t count = 0;
+  forEachBlock(bestSimdLevel(), 1, [&](std::size_t) {
+    for (std::size_t i = 0; i < mOrder.size() && count < most; ++i) {
+      OwnPiece& piece = mPieces[mOrder[i]];
+      move(piece, place);
+      piece.offences = countPiece(i, most - count);
+      count += piece.offences;
+    }
+  });
+  // What offends at one place is likely to at the next: `most` is reached sooner.
+  const auto before = [this](std::size_t a, std::size_t b) { return mPieces[a].offences > mPieces[b].offences; };
+  for (auto it = mOrder.begin(); it != mOrder.end(); ++it)
+    std::rotate(std::upper_bound(mOrder.begin(), it, *it, before), it, it + 1);
+  return count;
+}
+
+/// Offences of the piece that is the i-th in order, with the fixed triangles and the pieces before it.
+inline std::size_t VertexTrial::countPiece(std::size_t i, std::size_t most) {
+  const OwnPiece& piece = mPieces[mOrder[i]];
+  const std::span<OwnTriangle> own = triangles(piece);
+  for (OwnTriangle& t : own)
+    // What it meets then is of no matter.
+    if (!facesForward(piece, t)) return 1;
+  std::size_t count = 0;
+  if (own.size() == 2) count += trianglesIntersect(own[0], own[1]);
+  for (OwnTriangle& t : own)
+    if (count < most) count += countNear(t, most - count);
+  for (std::size_t j = 0; j < i; ++j)
+    for (const OwnTriangle& t : own)
+      for (const OwnTriangle& other : triangles(mPieces[mOrder[j]]))
+        if (count < most) count += trianglesIntersect(t, other);
+  return count;
+}
+
+inline bool VertexTrial::facesForward(const OwnPiece& piece, OwnTriangle& own) const {
+  if (own.moving >= 0) return mTests.facesForward(piece.forward, own.vertices, own.corners);
+  if (!own.forward) own.forward = mTests.facesForward(piece.forward, own.vertices, own.corners);
+  return *own.forward;
+}
+
+inline std::size_t VertexTrial::countNear(OwnTriangle& own, std::size_t most) {
+  if (own.nearCount) return std::min(*own.nearCount, most);
+  const bool stays = own.moving < 0;
+  std::size_t count = 0;
+  for (std::size_t i = own.firstNear; i < own.endNear && (count < most || stays); ++i)
+    if (meets(own, mNear[i])) std::swap(mNear[i], mNear[own.firstNear + count++]);
+  if (stays) own.nearCount = count;
+  return std::min(count, most);
+}
+
+inline bool VertexTrial::meets(const OwnTriangle& own, const NearTriangle& near) const {
+  const Sides* sides = &mSides[mColumns * near.number];
+  std::array<Sides, 3> ofOwn;
+  for (int k = 0; k < 3; ++k) ofOwn[k] = sides[own.point[k]] & near.ownMask[k];
+  if (all(ofOwn).same()) return false;
+  const FilteredTriangle& other = mFixed[near.number];
+  const std::array<Sides, 4> ofOther = own.plane.sides(quadOf(other.vertices), other.points);
+  if (all(ofOther).same()) return false;
+  return trianglesIntersect(own.corners, own.vertices, other.corners, other.vertices, {signs(ofOwn), signs(ofOther)});
+}
+
+}  // namespace pdc::detail

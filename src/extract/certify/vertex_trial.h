@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "extract/certify/near_faces.h"
+#include "extract/certify/triangle_filters.h"
+
+namespace pdc::detail {
+
+/// What the faces of a vertex would meet if the vertex were elsewhere. For affine maps.
+class VertexTrial {
+ public:
+  /// \param places in world space, the vertex's own among them; must outlive this.
+  VertexTrial(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex, std::span<const Vec3f> places);
+
+  /// Whether the tests of other faces would find those of the vertex at one of the places.
+  [[nodiscard]] bool finds(std::size_t place) const;
+  /// How many offences the faces of the vertex would have at one of the places; counts to `most`.
+  [[nodiscard]] std::size_t countOffences(std::size_t place, std::size_t most);
+
+ private:
+  /// A fixed triangle that one of the vertex may meet.
+  struct NearTriangle {
+    std::uint32_t number;                 ///< In mFixed.
+    std::array<std::uint8_t, 3> ownMask;  ///< All bits for the own triangle's corners that it does not have.
+  };
+  /// A triangle of a face of the vertex.
+  struct OwnTriangle : FilteredTriangle {
+    int moving;                          ///< Which corner is the vertex; -1: none, and the answers stay the same.
+    std::array<std::uint32_t, 3> point;  ///< Columns of mSides that the corners have.
+    std::size_t firstNear, endNear;      ///< In mNear; those met last first.
+    std::optional<bool> forward;
+    std::optional<std::size_t> nearCount;
+  };
+  /// A quad, or one triangle of a fan.
+  struct OwnPiece {
+    Vec3d forward;             ///< The way the surface passes its edge.
+    std::size_t first, count;  ///< Triangles, in mOwn.
+    std::size_t offences = 0;  ///< When last counted.
+  };
+  /// A face of the vertex, and how far it may reach from the low end of its edge.
+  struct Reach {
+    Vec3d low;
+    double most;
+  };
+
+  void addFaces(const Box& box);
+  void addOwn(const EdgeRef& e, std::span<const Triangle> triangles);
+  void findSides();
+  void addNear(OwnTriangle& own, const Box& places);
+  void move(const OwnPiece& piece, std::size_t place);
+  [[nodiscard]] bool facesForward(const OwnPiece& piece, OwnTriangle& own) const;
+  [[nodiscard]] std::size_t countPiece(std::size_t i, std::size_t most);
+  [[nodiscard]] std::size_t countNear(OwnTriangle& own, std::size_t most);
+  [[nodiscard]] bool meets(const OwnTriangle& own, const NearTriangle& near) const;
+  [[nodiscard]] std::span<OwnTriangle> triangles(const OwnPiece& piece) { return {&mOwn[piece.first], piece.count}; }
+
+  const NearFaces& mNearFaces;
+  const FaceTests& mTests;
+  std::span<const Vec3f> mPlaces;
+  std::uint32_t mVertex;
+  std::vector<Reach> mReach;
+  std::vector<OwnTriangle> mOwn;
+  std::vector<OwnPiece> mPieces;
+  std::vector<std::size_t> mOrder;  ///< In which those are counted.
+  std::vector<std::uint32_t> mRim;  ///< The other vertices of mOwn.
+  std::vector<FilteredTriangle> mFixed;
+  std::vector<NearTriangle> mNear;
+  /// By triangle of mFixed, where the places and then the rim's vertices are to its plane.
+  std::vector<Sides> mSides;
+  std::size_t mColumns = 0;      ///< Of mSides, for each of the triangles.
+  std::vector<Sides> mOfPlaces;  ///< By triangle of mFixed: of all places together.
+};
+
+}  // namespace pdc::detail

@@ -1,0 +1,152 @@
+#include "extract/faces/block_faces.h"
+
+#include <algorithm>
+#include <array>
+
+#include "extract/faces/quad_lanes.h"
+#include "extract/topology/cell_vertices.h"
+#include "extract/topology/edge_cells.h"
+#include "extract/vertices/cell_rounding.h"
+#include "math/lane_loops.h"
+#include "math/word_bits.h"
+
+namespace pdc::detail {
+namespace {
+
+/// Of triple products of three places not farther than a cell from a lattice point: what single precision does to
+/// their sums, and what rounding the places in world space does.
+float volumeDoubt(const LatticeMap& map, const Coord& block) {
+  constexpr double kArithmetic = 1e-5, kPerRounding = 16;
+  return static_cast<float>(kArithmetic + kPerRounding * cellRounding(map, block));
+}
+
+}  // namespace
+
+/// The quads of a block: each step for all of them, so that they need not wait for each other. Must be compiled into a
+/// function of a SimdLevel.
+class BlockFaceWriter::Block {
+ public:
+  Block(const BlockFaceWriter& writer, std::size_t block, const VertexErrors& errors, Doubts* doubts)
+      : mWriter(writer),
+        mOwn(writer.mTopology.blocks[block]),
+        mBlock(block),
+        mVertices(writer.mTopology, mOwn),
+        mErrors(errors),
+        mDoubts(doubts),
+        mQuads(writer.mQuads + mOwn.firstQuad),
+        mDoubt(doubts != nullptr ? volumeDoubt(writer.mMap, writer.mBlocks.coords[block]) : 0.0F) {}
+
+  void run() {
+    listEdges();
+    if (mVertices.allSimple()) {
+      findVertices<0>();
+      findVertices<1>();
+      findVertices<2>();
+    } else {
+      const QuadRings rings(mWriter.mBlocks, mWriter.mTopology);
+      for (int i = 0; i < mBegin[3]; ++i) {
+        const Quad ring = rings.vertices(edge(i));
+        for (int k = 0; k < 4; ++k) mVertex[k][i] = ring[k];
+      }
+    }
+    for (int first = 0; first < mBegin[3]; first += kLanes) addSixteen(first, std::min(mBegin[3] - first, kLanes));
+  }
+
+ private:
+  static constexpr int kMostQuads = 3 * kBlockSize * kBlockSize * kBlockSize;
+
+  void listEdges() {
+    int n = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      mBegin[axis] = n;
+      for (int x = 0; x < kBlockSize; ++x)
+        n += writeBits<4>(mOwn.edges[axis].word[x], [&](int i, int bit) {
+          mEdge[n + i] = static_cast<std::uint16_t>(512 * axis + 64 * x + bit);
+        });
+    }
+    mBegin[3] = n;
+  }
+
+  template <int axis>
+  void findVertices() {
+    constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
+    for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
+      const std::uint32_t* at = mVertices.at(mEdge[i] & 511);
+      for (int k = 0; k < 4; ++k) mVertex[k][i] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
+    }
+  }
+
+  [[nodiscard]] EdgeRef edge(int i) const { return {static_cast<std::int32_t>(mBlock), mEdge[i]}; }
+
+  /// Or fewer: `used`.
+  void addSixteen(int first, int used) {
+    for (int k = 0; k < 4; ++k) {
+      std::uint32_t* const vertex = &mVertex[k][first];
+      std::fill(vertex + used, vertex + kLanes, vertex[0]);
+      alignas(64) std::uint32_t place[kLanes];
+      forEachLane([&place, vertex, ring = mErrors.ring()](int i) { place[i] = ring.place(vertex[i]); });
+      const VertexError* errors = mErrors.data();
+      for (int i = 0; i < kLanes; i += 4)
+        mLanes.set(k, i, {errors + place[i], errors + place[i + 1], errors + place[i + 2], errors + place[i + 3]});
+    }
+    for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] >> 9;
+    chooseDiagonals(mLanes);
+    if (mDoubts != nullptr) {
+      findPassing(mLanes, mDoubt);
+      for (int i = 0; i < used; ++i)
+        if ((mLanes.passes[i] & 1) == 0) noteDoubt(first + i, i);
+    }
+    write(first, used);
+  }
+
+  /// The diagonal of a lane's quad does not pass.
+  void noteDoubt(int i, int lane) {
+    if ((mLanes.passes[lane] & 2) != 0) {
+      mLanes.first[lane] ^= 1;
+      ++mDoubts->forcedDiagonals;
+    } else {
+      mDoubts->quads.push_back(edge(i));
+    }
+  }
+
+  /// Quads start where their diagonal does, and go round as their orientation wants.
+  void write(int from, int used) {
+    const BlockSigns& signs = mWriter.mBlocks.signs[mBlock];
+    const bool mirrored = mWriter.mMap.mirrored();
+    alignas(64) std::uint32_t reversed[kLanes], quad[4][kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      const EdgeRef e = edge(from + i);
+      reversed[i] = signs.inside(e.x(), e.y(), e.z()) == mirrored ? 1 : 0;
+    }
+    forEachLane([&, first = mLanes.first, v0 = &mVertex[0][from], v1 = &mVertex[1][from], v2 = &mVertex[2][from],
+                 v3 = &mVertex[3][from]](int i) {
+      const bool same = first[i] != 0, back = reversed[i] != 0;
+      const std::uint32_t next = same ? v1[i] : v2[i], last = same ? v3[i] : v0[i];
+      quad[0][i] = same ? v0[i] : v1[i];
+      quad[1][i] = back ? last : next;
+      quad[2][i] = same ? v2[i] : v3[i];
+      quad[3][i] = back ? next : last;
+    });
+    for (int i = 0; i < used; ++i) mQuads[from + i] = {quad[0][i], quad[1][i], quad[2][i], quad[3][i]};
+  }
+
+  const BlockFaceWriter& mWriter;
+  const BlockTopology& mOwn;
+  const std::size_t mBlock;
+  const CellVertices mVertices;
+  const VertexErrors& mErrors;
+  Doubts* const mDoubts;
+  Quad* const mQuads;
+  const float mDoubt;
+  QuadLanes mLanes;
+  std::array<int, 4> mBegin{};  ///< Per axis, the first of its edges in the lists.
+  // Not cleared: a block uses little of them.
+  std::array<std::uint16_t, kMostQuads + kLanes> mEdge;
+  std::array<std::array<std::uint32_t, kMostQuads + kLanes>, 4> mVertex;
+};
+
+void BlockFaceWriter::run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const {
+  forEachBlock(mLevel, 1, [&](std::size_t) { Block(*this, block, errors, doubts).run(); });
+}
+
+}  // namespace pdc::detail

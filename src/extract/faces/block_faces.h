@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "extract/topology/block_topology.h"
+#include "extract/topology/suspect_vertex.h"
+#include "extract/vertices/vertex_errors.h"
+#include "pdc/math/simd_level.h"
+
+namespace pdc::detail {
+
+/// Writes the faces of blocks whose vertices and lower neighbours' vertices are solved: quad i of the topology to
+/// quads[i]. Each starts at the corner that puts its diagonal where the summed
+/// quadric error of its vertices, taken at the diagonal's midpoint, is smaller: shorter or smaller diagonals cut
+/// creases off.
+class BlockFaceWriter {
+ public:
+  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, const LatticeMap& map, Quad* quads,
+                  SimdLevel level)
+      : mBlocks(blocks), mTopology(topology), mMap(map), mQuads(quads), mLevel(level) {}
+
+  /// \param doubts null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
+  /// Such a quad is split along the other diagonal if that one passes.
+  void run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const;
+
+ private:
+  class Block;
+
+  const SurfaceBlocks& mBlocks;
+  const Topology& mTopology;
+  const LatticeMap& mMap;
+  Quad* mQuads;
+  SimdLevel mLevel;
+};
+
+}  // namespace pdc::detail

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "extract/topology/block_topology.h"
+#include "math/word_bits.h"
+
+namespace pdc::detail {
+
+/// Numbers in the mesh of the vertices of a block's cells and of the cells one below it, where each has one at most.
+/// Should be compiled into a function of a SimdLevel.
+class CellVertices {
+ public:
+  CellVertices(const Topology& topology, const BlockTopology& own) {
+    mAllSimple = own.special.empty();
+    add(own, 0, 0, 0);
+    // Edges have cells about them that lie below on two axes at most.
+    for (int i = 1; i < 7; ++i) {
+      if (own.lower[i] == BlockIndex::kMissing) continue;
+      const BlockTopology& b = topology.blocks[own.lower[i]];
+      mAllSimple = mAllSimple && b.special.empty();
+      add(b, i >> 2, i >> 1 & 1, i & 1);
+    }
+  }
+
+  /// False if some cell has several vertices: then the numbers are of no use.
+  [[nodiscard]] bool allSimple() const { return mAllSimple; }
+  /// Step from a cell to the next along an axis.
+  static constexpr std::array<int, 3> kStep{kBlockPoints * kBlockPoints, kBlockPoints, 1};
+  /// From that of the block's cell 64x + 8y + z.
+  [[nodiscard]] const std::uint32_t* at(int cell) const {
+    return &mVertex[index(0, 0, 0) + cell + (cell >> 3) + kBlockPoints * (cell >> 6)];
+  }
+
+ private:
+  static constexpr int index(int x, int y, int z) { return kStep[0] * (x + 1) + kStep[1] * (y + 1) + z + 1; }
+
+  /// Adds the cells of a block at -(dx, dy, dz), or of these those in its last layer on each of these axes.
+  void add(const BlockTopology& b, int dx, int dy, int dz) {
+    if ((dx | dy | dz) == 0) return addOwn(b);
+    const std::uint64_t wanted =
+        (dy != 0 ? std::uint64_t{0xFF} << 56 : ~std::uint64_t{0}) & (dz != 0 ? 0x8080808080808080 : ~std::uint64_t{0});
+    for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
+      const std::uint64_t word = b.cells.word[x];
+      // Of a cell that may lie outside.
+      const int first = index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
+      const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
+      for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {
+        const int bit = std::countr_zero(w);
+        const std::uint64_t before = word & ((std::uint64_t{1} << bit) - 1);
+        mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(std::popcount(before));
+      }
+    }
+  }
+
+  void addOwn(const BlockTopology& b) {
+    for (int x = 0; x < kBlockSize; ++x) {
+      const std::uint64_t word = b.cells.word[x];
+      if (word == 0) continue;
+      const int first = index(x, 0, 0);
+      const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
+      writeBits<8>(word,
+                   [&](int i, int bit) { mVertex[first + bit + (bit >> 3)] = number + static_cast<std::uint32_t>(i); });
+    }
+  }
+
+  bool mAllSimple;
+  // Not cleared: only cells that have a vertex are asked for. With room for what is written beyond the last.
+  std::array<std::uint32_t, kBlockPoints * kBlockPoints * kBlockPoints + kBlockPoints> mVertex;
+};
+
+}  // namespace pdc::detail

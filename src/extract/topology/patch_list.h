@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "extract/topology/block_topology.h"
+#include "pdc/sample/feature_planes.h"
+
+namespace pdc::detail {
+
+/// The patches of a block's cells, in the order of their vertices.
+class PatchList {
+ public:
+  void fill(const BlockTopology& topology, const BlockSigns& signs);
+
+  [[nodiscard]] std::size_t size() const { return mPatches.size(); }
+  [[nodiscard]] const SurfacePatch& operator[](std::size_t i) const { return mPatches[i]; }
+  [[nodiscard]] std::span<const SurfacePatch> patches() const { return mPatches; }
+  /// Whether patch i is of a cell in which not every place is safe (see CellEntry), or of several.
+  [[nodiscard]] bool strict(std::size_t i) const { return mStrict[i] != 0; }
+  [[nodiscard]] bool anyStrict() const { return mAnyStrict; }
+  /// Ascending, the patches of special cells (see BlockTopology). Any other has all of its cell's crossings.
+  [[nodiscard]] std::span<const std::uint32_t> special() const { return mSpecial; }
+
+ private:
+  std::vector<SurfacePatch> mPatches;
+  std::vector<std::uint8_t> mStrict;
+  std::vector<std::uint32_t> mSpecial;
+  bool mAnyStrict = false;
+};
+
+}  // namespace pdc::detail

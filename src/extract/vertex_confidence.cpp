@@ -1,0 +1,223 @@
+#include "extract/vertex_confidence.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "extract/topology/patch_list.h"
+#include "extract/vertices/sigma_normal.h"
+#include "extract/vertices/vertex_solver.h"
+#include "mesh/faces.h"
+#include "parallel/block_progress.h"
+#include "pdc/math/solvers.h"
+#include "sample/patch_edges.h"
+
+namespace pdc::detail {
+namespace {
+
+/// Eigenvalues of Σnnᵀ above this share of the trace count: two planes at 26°. Noise of 0.1 voxels in distances leaves
+/// flat parts at some 0.02.
+constexpr double kRankShare = 0.05;
+
+/// Error of a plane from distances over its σn: at noises of 0.02 and 0.1 voxel vertices on flat parts are off by 0.4
+/// of that.
+constexpr double kPlaneError = 0.4;
+
+constexpr double square(double x) { return x * x; }
+
+/// What the planes of a vertex say of it.
+struct Rating {
+  Vec3f normal{};      ///< The direction that they determine best, outwards; zero where there are none.
+  float variance = 0;  ///< Of the solution where they determine it, in voxels squared.
+  std::uint8_t rank = 1;
+  /// Several planes from distances meet there: how far it is from its neighbours' mean says how the crease lies.
+  bool onCrease = false;
+};
+
+/// The planes of one vertex: unit normals in world space times the roots of their weights, and its distances from them
+/// in voxels.
+struct Planes {
+  static constexpr int kMax = PatchSamples::kMax;
+  std::array<Vec3d, kMax> normal;
+  std::array<double, kMax> distance;
+  int size = 0;
+  double known = 0;  ///< Variance of the distances as far as the source tells it, in voxels squared.
+
+  void add(const Vec3d& n, double d) {
+    if (n == Vec3d{} || size == kMax) return;
+    normal[size] = n;
+    distance[size++] = d;
+  }
+};
+
+Rating rate(const Planes& planes) {
+  Rating rating;
+  if (planes.size == 0) return rating;
+  SymMat3<double> A{};
+  Vec3d mean{};
+  double squares = 0;
+  for (int i = 0; i < planes.size; ++i) {
+    A += outer(planes.normal[i]);
+    mean += planes.normal[i];
+    squares += planes.distance[i] * planes.distance[i];
+  }
+  const Eigen3 e = eigenSymmetric(A);
+  int rank = 0;
+  double inverses = 0;
+  for (const double value : e.value) {
+    if (!(value > kRankShare * A.trace())) continue;
+    ++rank;
+    inverses += 1 / value;
+  }
+  const double seen = planes.size > rank ? squares / (planes.size - rank) : 0;
+  rating.variance = static_cast<float>((seen + planes.known) * inverses);
+  rating.rank = static_cast<std::uint8_t>(std::max(rank, 1));
+  rating.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
+  return rating;
+}
+
+/// Rates the vertices of one block after another. For one thread; large: keep it off the stack.
+class BlockRater {
+ public:
+  /// \param normalNoise of the source's normals: noise of values turns normals by about as much as it moves crossings,
+  /// in voxels.
+  BlockRater(const HermiteSource& source, double normalNoise)
+      : mSource(source),
+        mMap(source.map()),
+        mNoise(source.knowsSigma() ? std::make_unique<PlaneNoise>() : nullptr),
+        mNormalVariance(square(normalNoise)) {}
+
+  void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const Mesh& mesh,
+           Buffer<Rating>& ratings) {
+    const EdgeIndex edges(signs);
+    const Vec3d origin = blockOrigin(block);
+    const CellMetric metric = blockMetric(mMap, origin);
+    mSource.fillHermite(block, signs, edges, mHermite);
+    if (mNoise != nullptr) mSource.fillNoise(block, edges, mHermite, *mNoise);
+    mPatches.fill(topology, signs);
+    mFeatures.clear();
+    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mPatches.patches(), mFeatures);
+    const Mat3d toWorld = inverse(metric.M).transposed();
+    for (std::size_t i = 0; i < mPatches.size(); ++i) {
+      const std::uint64_t vertex = topology.firstVertex + i;
+      const Vec3d at = vecCast<double>(mesh.positions[vertex]);
+      Planes planes;
+      const auto add = [&](const Vec3d& n, const Vec3d& point) {
+        planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
+      };
+      const FeaturePlanes::Patch* feature = mFeatures.find(i);
+      if (feature != nullptr) {
+        planes.known = square(kPlaneError * static_cast<double>(feature->sigmaNormal));
+        for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
+          add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
+      } else {
+        planes.known = mNoise != nullptr ? meanVariance(mPatches[i], edges) : mNormalVariance;
+        addCrossings(mPatches[i], edges, add);
+      }
+      ratings[vertex] = rate(planes);
+      ratings[vertex].onCrease = feature != nullptr && feature->count > 1;
+    }
+  }
+
+ private:
+  /// Of the patch's crossings. A normal's noise is that of the values over the gradient, near enough, and that of the
+  /// distance too.
+  [[nodiscard]] double meanVariance(const SurfacePatch& patch, const EdgeIndex& edges) const {
+    double sum = 0;
+    forEachEdge(patch, edges, [&](int /*e*/, int i) { sum += square(mNoise->sigma[i]); });
+    return sum / std::popcount(patch.edges);
+  }
+
+  template <typename Add>
+  void addCrossings(const SurfacePatch& patch, const EdgeIndex& edges, const Add& add) const {
+    const Coord cell = cellOf(patch);
+    forEachEdge(patch, edges, [&](int e, int i) {
+      Vec3d point = Vec3d{double(cell[0]), double(cell[1]), double(cell[2])} + cornerPlace(kCellEdge[e].low);
+      point[kCellEdge[e].axis] += mHermite.t[i];
+      add(Vec3d{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]}, point);
+    });
+  }
+
+  const HermiteSource& mSource;
+  const LatticeMap& mMap;
+  const std::unique_ptr<PlaneNoise> mNoise;  ///< Null: the source knows none.
+  const double mNormalVariance;
+  HermiteBlock mHermite;
+  PatchList mPatches;
+  FeaturePlanes mFeatures;
+};
+
+/// Calls visit(a, b) for all ordered pairs of vertices of each face.
+template <typename Visit>
+void forEachPair(const Mesh& mesh, Visit&& visit) {
+  for (std::size_t f = 0; f < faceCount(mesh); ++f)
+    for (const std::uint32_t a : face(mesh, f))
+      for (const std::uint32_t b : face(mesh, f))
+        if (a != b) visit(a, b);
+}
+
+/// What certifying added has no planes of its own: gets its neighbours' mean normal and their largest variance.
+void rateAdded(const Mesh& mesh, std::size_t solved, Buffer<Rating>& ratings) {
+  std::fill(ratings.begin() + static_cast<std::ptrdiff_t>(solved), ratings.end(), Rating{});
+  if (solved == ratings.size()) return;
+  forEachPair(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    if (a < solved || b >= solved) return;
+    ratings[a].normal += ratings[b].normal;
+    ratings[a].variance = std::max(ratings[a].variance, ratings[b].variance);
+  });
+  for (std::size_t i = solved; i < ratings.size(); ++i) {
+    const float l = length(ratings[i].normal);
+    if (l > 0) ratings[i].normal *= 1 / l;
+  }
+}
+
+/// Distances of vertices from their neighbours' means along their normals, in world units; neighbours count by how well
+/// their normals agree.
+std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
+  std::vector<double> sum(ratings.size(), 0), weight(ratings.size(), 0);
+  forEachPair(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3d n = vecCast<double>(ratings[a].normal);
+    const double c = std::max(dot(n, vecCast<double>(ratings[b].normal)), 0.0), c2 = c * c, c4 = c2 * c2;
+    sum[a] += c4 * c4 * dot(n, vecCast<double>(mesh.positions[a]) - vecCast<double>(mesh.positions[b]));
+    weight[a] += c4 * c4;
+  });
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = weight[i] > 0 ? sum[i] / weight[i] : 0;
+  return sum;
+}
+
+}  // namespace
+
+void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
+                  const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
+  Buffer<Rating> ratings(mesh.positions.size());
+  tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
+      [&, noise = SigmaNormal::fromData(source, blocks, monitor).noise()] {
+        return std::make_unique<BlockRater>(source, noise);
+      });
+  BlockProgress progress(monitor, "confidence", blocks.coords.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
+    BlockRater& rater = *raters.local();
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      rater.run(blocks.coords[i], blocks.signs[i], topology.blocks[i], mesh, ratings);
+    progress.advance(range.size());
+  });
+  rateAdded(mesh, topology.vertexCount, ratings);
+  if (options.ranks) {
+    mesh.ranks.resize(ratings.size());
+    for (std::size_t i = 0; i < ratings.size(); ++i) mesh.ranks[i] = ratings[i].rank;
+  }
+  if (!options.confidence) return;
+  const std::vector<double> height = heights(mesh, ratings);
+  const double unit = source.map().voxelSize();
+  mesh.confidence.resize(ratings.size());
+  for (std::size_t i = 0; i < ratings.size(); ++i) {
+    const double seen = ratings[i].onCrease ? 0 : height[i] / unit;
+    const double deviation = std::hypot(seen, std::sqrt(double{ratings[i].variance}));
+    mesh.confidence[i] = static_cast<float>(1 / (1 + deviation / kHalfConfidence));
+  }
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "extract/topology/block_topology.h"
+#include "extract/topology/suspect_vertex.h"
+#include "extract/vertices/vertex_errors.h"
+#include "extract/vertices/vertex_solver.h"
+#include "pdc/math/simd_level.h"
+
+namespace pdc::detail {
+
+struct VertexCounts {
+  std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
+  double normalNoise = 0;  ///< See ContourReport; the same for all.
+
+  VertexCounts& operator+=(const VertexCounts& c) {
+    crossings += c.crossings;
+    withoutNormal += c.withoutNormal;
+    outOfCell += c.outOfCell;
+    moved += c.moved;
+    return *this;
+  }
+};
+
+/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and errors[i].
+struct VertexOutput {
+  Vec3f* positions;
+  Vec3f* normals;
+  VertexErrors* errors;
+  Doubts* doubts;  ///< Null: wherever a vertex comes to lie is right.
+};
+
+/// Samples and solves the vertices of one block after another. For one thread; large: keep it off the stack.
+class BlockVertexSolver {
+ public:
+  /// \param halfSize see VertexSolver.
+  BlockVertexSolver(const HermiteSource& source, const SigmaNormal& sigma, double halfSize, SimdLevel level);
+  ~BlockVertexSolver();
+  BlockVertexSolver(const BlockVertexSolver&) = delete;
+  BlockVertexSolver& operator=(const BlockVertexSolver&) = delete;
+
+  /// Block `index` of the list.
+  void run(std::size_t index, const SurfaceBlocks& blocks, const Topology& topology, const VertexOutput& out,
+           VertexCounts& counts);
+
+ private:
+  struct Scratch;
+  const HermiteSource& mSource;
+  std::unique_ptr<Scratch> mScratch;
+};
+
+}  // namespace pdc::detail

@@ -1,0 +1,56 @@
+#include "pdc/io/mesh/mesh_reader.h"
+
+#include <new>
+#include <string_view>
+
+#include "io/file/file_error.h"
+#include "io/file/read_file.h"
+#include "io/mesh/mesh_format.h"
+#include "io/mesh/obj_reader.h"
+#include "io/mesh/off_reader.h"
+#include "io/mesh/ply_reader.h"
+#include "io/mesh/stl_reader.h"
+
+namespace pdc {
+namespace {
+
+Mesh parse(detail::MeshFormat format, std::string_view bytes) {
+  switch (format) {
+    case detail::MeshFormat::kPly:
+      return detail::readPly(bytes);
+    case detail::MeshFormat::kObj:
+      return detail::readObj(bytes);
+    case detail::MeshFormat::kStl:
+      return detail::readStl(bytes);
+    case detail::MeshFormat::kOff:
+      break;
+  }
+  return detail::readOff(bytes);
+}
+
+/// Calls take(bytes) with the file's; errors name the file.
+template <typename Take>
+auto withBytes(const std::filesystem::path& path, Take&& take) {
+  try {
+    const Buffer<char> bytes = detail::readFile(path);
+    return take(std::string_view(bytes.data(), bytes.size()));
+  } catch (const Error& error) {
+    throw detail::fileError(path, error.what());
+  } catch (const std::bad_alloc&) {
+    throw detail::fileError(path, "does not fit into memory");
+  }
+}
+
+}  // namespace
+
+Mesh readMesh(const std::filesystem::path& path) {
+  const detail::MeshFormat format = detail::meshFormat(path);
+  return withBytes(path, [&](std::string_view bytes) { return parse(format, bytes); });
+}
+
+std::optional<Buffer<float>> readVertexProperty(const std::filesystem::path& path, const std::string& name) {
+  if (detail::meshFormat(path) != detail::MeshFormat::kPly) return std::nullopt;
+  return withBytes(path, [&](std::string_view bytes) { return detail::readPlyProperty(bytes, name); });
+}
+
+}  // namespace pdc

@@ -1,0 +1,41 @@
+#include "pdc/io/mesh/mesh_writer.h"
+
+#include <stdexcept>
+
+#include "io/file/atomic_file.h"
+#include "io/mesh/mesh_format.h"
+#include "io/mesh/obj_writer.h"
+#include "io/mesh/openmesh_writer.h"
+#include "io/mesh/ply_writer.h"
+
+namespace pdc {
+
+void checkMeshPath(const std::filesystem::path& path) {
+  static_cast<void>(detail::meshFormat(path));
+  detail::checkWritable(path);
+}
+
+std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options) {
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+    throw std::invalid_argument("writeMesh: as many normals as positions, or none");
+  const detail::MeshFormat format = detail::meshFormat(path);
+  detail::AtomicFile file(path);
+  switch (format) {
+    case detail::MeshFormat::kPly:
+      detail::writePly(mesh, file, options.ascii);
+      break;
+    case detail::MeshFormat::kObj:
+      detail::writeObj(mesh, file);
+      break;
+    case detail::MeshFormat::kStl:
+      detail::writeStl(mesh, file, options.ascii);
+      break;
+    case detail::MeshFormat::kOff:
+      detail::writeOff(mesh, file);
+      break;
+  }
+  file.commit();
+  return file.bytesWritten();
+}
+
+}  // namespace pdc

@@ -1,0 +1,67 @@
+#include "io/mesh/obj_writer.h"
+
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+
+#include "io/file/atomic_file.h"
+#include "io/file/chunked_output.h"
+#include "io/file/text_format.h"
+
+namespace pdc::detail {
+namespace {
+
+/// About a megabyte of text per chunk.
+constexpr std::size_t kItemsPerChunk = 1 << 15;
+
+void writeVectors(const Buffer<Vec3f>& vectors, bool normals, AtomicFile& file) {
+  writeChunked(file, vectors.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
+    TextCursor text(out, (end - begin) * 4 * TextCursor::kMaxNumber);
+    for (std::size_t i = begin; i < end; ++i) {
+      text.put('v');
+      if (normals) text.put('n');
+      for (int axis = 0; axis < 3; ++axis) {
+        text.put(' ');
+        text.put(vectors[i][axis]);
+      }
+      text.put('\n');
+    }
+    text.finish();
+  });
+}
+
+/// A normal has the number of its vertex.
+template <typename Face>
+void writeFaces(const Buffer<Face>& faces, bool normals, AtomicFile& file) {
+  writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
+    TextCursor text(out, (end - begin) * (1 + 2 * std::tuple_size_v<Face>)*TextCursor::kMaxNumber);
+    for (std::size_t i = begin; i < end; ++i) {
+      text.put('f');
+      for (const std::uint32_t v : faces[i]) {
+        const std::uint64_t number = std::uint64_t{v} + 1;
+        text.put(' ');
+        text.put(number);
+        if (!normals) continue;
+        text.put('/');
+        text.put('/');
+        text.put(number);
+      }
+      text.put('\n');
+    }
+    text.finish();
+  });
+}
+
+}  // namespace
+
+void writeObj(const Mesh& mesh, AtomicFile& file) {
+  constexpr std::string_view kHeader = "# pdc\n";
+  const bool normals = !mesh.normals.empty();
+  file.write(kHeader.data(), kHeader.size());
+  writeVectors(mesh.positions, false, file);
+  writeVectors(mesh.normals, true, file);
+  writeFaces(mesh.quads, normals, file);
+  writeFaces(mesh.triangles, normals, file);
+}
+
+}  // namespace pdc::detail

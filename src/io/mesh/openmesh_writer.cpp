@@ -1,0 +1,121 @@
+#include "io/mesh/openmesh_writer.h"
+
+#include <fmt/format.h>
+
+#include <OpenMesh/Core/IO/IOManager.hh>
+#include <cstdint>
+#include <limits>
+#include <locale>
+#include <ostream>
+#include <streambuf>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "io/mesh/openmesh_quiet.h"
+#include "io/mesh/plain_exporter.h"
+#include "pdc/error.h"
+
+namespace pdc::detail {
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::VertexHandle;
+
+OpenMesh::Vec3f toOpenMesh(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+/// Shows a Mesh to OpenMesh's writers; with `split`, quads as their two triangles.
+class SoupExporter final : public PlainExporter {
+ public:
+  using PlainExporter::normal;
+
+  SoupExporter(const Mesh& mesh, bool split) : mMesh(mesh), mSplit(split) {}
+
+  size_t n_vertices() const override { return mMesh.positions.size(); }
+  size_t n_faces() const override { return (mSplit ? 2 : 1) * mMesh.quads.size() + mMesh.triangles.size(); }
+  OpenMesh::Vec3f point(VertexHandle v) const override { return toOpenMesh(position(v)); }
+  bool has_face_normals() const override { return true; }
+
+  unsigned int get_vhandles(FaceHandle f, std::vector<VertexHandle>& corners) const override {
+    corners.clear();
+    const auto i = static_cast<std::size_t>(f.idx());
+    const std::size_t fromQuads = (mSplit ? 2 : 1) * mMesh.quads.size();
+    const auto add = [&](std::uint32_t v) { corners.emplace_back(static_cast<int>(v)); };
+    if (i >= fromQuads) {
+      for (const std::uint32_t v : mMesh.triangles[i - fromQuads]) add(v);
+    } else if (mSplit) {
+      const Quad& quad = mMesh.quads[i / 2];
+      for (const std::size_t k : {std::size_t{0}, i % 2 + 1, i % 2 + 2}) add(quad[k]);
+    } else {
+      for (const std::uint32_t v : mMesh.quads[i]) add(v);
+    }
+    return static_cast<unsigned int>(corners.size());
+  }
+
+  /// OpenMesh's own normals of triangles without area are NaN.
+  OpenMesh::Vec3f normal(FaceHandle f) const override {
+    std::vector<VertexHandle> corners;
+    get_vhandles(f, corners);
+    const auto a = vecCast<double>(position(corners[0]));
+    const auto n = cross(vecCast<double>(position(corners[1])) - a, vecCast<double>(position(corners[2])) - a);
+    const double size = length(n);
+    return size > 0 ? toOpenMesh(vecCast<float>(n * (1.0 / size))) : OpenMesh::Vec3f(0.0f);
+  }
+
+ private:
+  [[nodiscard]] const pdc::Vec3f& position(VertexHandle v) const {
+    return mMesh.positions[static_cast<std::size_t>(v.idx())];
+  }
+
+  const Mesh& mMesh;
+  bool mSplit;
+};
+
+/// A stream's way into an AtomicFile.
+class FileBuffer final : public std::streambuf {
+ public:
+  explicit FileBuffer(AtomicFile& file) : mFile(file), mBytes(1 << 20) { reset(); }
+
+  void flush() {
+    mFile.write(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+    reset();
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    flush();
+    return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
+                                                           : sputc(traits_type::to_char_type(c));
+  }
+
+ private:
+  void reset() { setp(mBytes.data(), mBytes.data() + mBytes.size()); }
+
+  AtomicFile& mFile;
+  std::vector<char> mBytes;
+};
+
+void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, const OpenMesh::IO::Options& options) {
+  SoupExporter exporter(mesh, split);
+  constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (exporter.n_faces() > kMax || exporter.n_vertices() > kMax)
+    throw Error(fmt::format("a .{} file takes at most {} vertices and faces, the mesh has {} and {}", format, kMax,
+                            exporter.n_vertices(), exporter.n_faces()));
+  FileBuffer buffer(file);
+  std::ostream stream(&buffer);
+  stream.imbue(std::locale::classic());
+  stream.exceptions(std::ios::badbit);  // lets Error through from the buffer
+  const OpenMeshQuiet quiet;
+  if (!OpenMesh::IO::IOManager().write(stream, format, exporter, options, std::numeric_limits<float>::max_digits10))
+    throw Error(fmt::format("OpenMesh cannot write this mesh as .{}", format));
+  buffer.flush();
+}
+
+}  // namespace
+
+void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii) {
+  write(mesh, file, "stl", true, ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary);
+}
+
+void writeOff(const Mesh& mesh, AtomicFile& file) { write(mesh, file, "off", false, OpenMesh::IO::Options::Default); }
+
+}  // namespace pdc::detail

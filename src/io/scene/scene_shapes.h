@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "io/scene/yaml_value.h"
+#include "pdc/field/field.h"
+
+namespace pdc::detail {
+
+/// What the shapes of a scene share while it is read.
+struct SceneContext {
+  std::filesystem::path folder;  ///< Where relative paths start.
+  std::size_t shapes = 0;        ///< Read so far, those of aliases each time they are used.
+  int depth = 0;                 ///< Shapes around the current one.
+};
+
+/// A kind of shape: its name in the file, and how its parameters make a field.
+struct ShapeKind {
+  std::string_view name;
+  FieldPtr (*read)(const YamlValue& parameters, SceneContext& context);
+};
+
+[[nodiscard]] std::span<const ShapeKind> scenePrimitives();
+[[nodiscard]] std::span<const ShapeKind> sceneOperators();
+[[nodiscard]] FieldPtr readGridShape(const YamlValue& parameters, SceneContext& context);
+
+/// Reads a shape and all that is in it: a map with one key, the shape's name. \throws YamlError.
+[[nodiscard]] FieldPtr readShape(const YamlValue& value, SceneContext& context);
+
+}  // namespace pdc::detail

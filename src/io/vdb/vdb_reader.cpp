@@ -1,0 +1,192 @@
+#include "pdc/io/vdb/vdb_reader.h"
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "io/file/file_error.h"
+#include "io/vdb/vdb_file.h"
+#include "io/vdb/vdb_grid.h"
+#include "io/vdb/vdb_tree_check.h"
+
+namespace pdc {
+namespace {
+
+using detail::VdbEntry;
+using detail::VdbFile;
+using detail::VdbGridHead;
+
+using ContourableGrids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
+                                           openvdb::Int64Grid, openvdb::BoolGrid>;
+
+/// Runs `action` and gives every error the name of the file.
+template <typename Action>
+auto withFileName(const std::filesystem::path& path, Action&& action) {
+  try {
+    openvdb::initialize();
+    return action();
+  } catch (const std::bad_alloc&) {
+    throw detail::fileError(path, "does not fit into memory");
+  } catch (const std::exception& error) {
+    throw detail::fileError(path, error.what());
+  }
+}
+
+/// "float" of "Tree_float_5_4_3".
+std::string valueType(std::string type) {
+  if (type.starts_with("Tree_")) type.erase(0, 5);
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  for (;;) {
+    const std::size_t last = type.rfind('_');
+    if (last == std::string::npos || last + 1 == type.size()) return type;
+    if (!std::all_of(type.begin() + static_cast<std::ptrdiff_t>(last) + 1, type.end(), isDigit)) return type;
+    type.resize(last);
+  }
+}
+
+std::string transformKind(const openvdb::math::Transform& transform) {
+  std::string type = transform.mapType();
+  if (type == "UniformScaleMap") return "uniform scale";
+  if (type == "UniformScaleTranslateMap") return "uniform scale, translation";
+  if (type == "ScaleMap") return "scale";
+  if (type == "ScaleTranslateMap") return "scale, translation";
+  if (type == "TranslationMap") return "translation";
+  if (type == "UnitaryMap") return "rotation";
+  if (type == "AffineMap") return "affine";
+  if (type == "NonlinearFrustumMap") return "frustum";
+  return type;
+}
+
+template <typename Value>
+Value metaValue(const openvdb::MetaMap& map, const char* name, const Value& otherwise) {
+  const auto metadata = map.getMetadata<openvdb::TypedMetadata<Value>>(name);
+  return metadata ? metadata->value() : otherwise;
+}
+
+void setBounds(VdbGridInfo& info, const openvdb::Coord& lo, const openvdb::Coord& hi) {
+  info.boundsLo = {lo.x(), lo.y(), lo.z()};
+  info.boundsHi = {hi.x(), hi.y(), hi.z()};
+}
+
+/// What can be known without the tree. The voxels of a grid that cannot be contoured are those that its writer noted.
+VdbGridInfo describe(const VdbFile& file, const VdbEntry& entry, const VdbGridHead& head) {
+  using openvdb::GridBase;
+  const openvdb::MetaMap map = detail::toMetaMap(head.metadata);
+  const auto transform = detail::toTransform(file, head);
+  const openvdb::Vec3d voxel = transform->voxelSize(openvdb::Vec3d(0.0));
+  VdbGridInfo info;
+  info.name = entry.shownName();
+  info.valueType = valueType(entry.type);
+  info.gridClass = GridBase::gridClassToString(
+      GridBase::stringToGridClass(metaValue<std::string>(map, GridBase::META_GRID_CLASS, "")));
+  info.transform = transformKind(*transform);
+  info.savedAsHalf = head.half;
+  info.contourable = detail::isKnownVdbTree(entry.type);
+  info.voxelSize = {voxel.x(), voxel.y(), voxel.z()};
+  info.activeVoxels = static_cast<std::size_t>(
+      std::max<openvdb::Int64>(0, metaValue<openvdb::Int64>(map, GridBase::META_FILE_VOXEL_COUNT, 0)));
+  const auto lo = metaValue<openvdb::Vec3i>(map, GridBase::META_FILE_BBOX_MIN, openvdb::Vec3i(1));
+  const auto hi = metaValue<openvdb::Vec3i>(map, GridBase::META_FILE_BBOX_MAX, openvdb::Vec3i(0));
+  setBounds(info, openvdb::Coord(lo), openvdb::Coord(hi));
+  return info;
+}
+
+struct Range {
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+
+  /// NaN changes nothing.
+  template <typename Value>
+  void add(Value value) {
+    const auto v = static_cast<double>(value);
+    if (v < lo) lo = v;
+    if (v > hi) hi = v;
+  }
+};
+
+template <typename Tree>
+Range activeRange(const Tree& tree) {
+  std::vector<const typename Tree::LeafNodeType*> leaves;
+  tree.getNodes(leaves);
+  Range range = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, leaves.size(), 64), Range{},
+      [&](const auto& part, Range sum) {
+        for (std::size_t i = part.begin(); i != part.end(); ++i)
+          for (auto value = leaves[i]->cbeginValueOn(); value; ++value) sum.add(*value);
+        return sum;
+      },
+      [](Range a, const Range& b) {
+        a.add(b.lo);
+        a.add(b.hi);
+        return a;
+      });
+  auto tile = tree.cbeginValueOn();
+  tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);
+  for (; tile; ++tile) range.add(*tile);
+  return range;
+}
+
+void describeVoxels(const openvdb::GridBase& grid, VdbGridInfo& info) {
+  info.activeVoxels = grid.activeVoxelCount();
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  setBounds(info, box.empty() ? openvdb::Coord(1) : box.min(), box.empty() ? openvdb::Coord(0) : box.max());
+  grid.apply<ContourableGrids>([&](const auto& typed) {
+    info.background = static_cast<double>(typed.background());
+    const Range range = activeRange(typed.tree());
+    if (range.lo > range.hi) return;
+    info.valueMin = range.lo;
+    info.valueMax = range.hi;
+  });
+}
+
+std::string listNames(const VdbFile& file) {
+  std::string list;
+  for (const VdbEntry& entry : file.entries())
+    list += fmt::format("{}\"{}\" ({})", list.empty() ? "" : ", ", entry.shownName(), valueType(entry.type));
+  return list.empty() ? "nothing" : list;
+}
+
+const VdbEntry& findEntry(const VdbFile& file, const std::string& name) {
+  const VdbEntry* found = nullptr;
+  for (const VdbEntry& entry : file.entries()) {
+    const bool wanted = name.empty() ? detail::isKnownVdbTree(entry.type) : entry.shownName() == name;
+    if (!wanted) continue;
+    if (found != nullptr && name.empty())
+      throw Error(fmt::format("more than one grid can be contoured; choose one by name: {}", listNames(file)));
+    if (found == nullptr) found = &entry;
+  }
+  if (found == nullptr && name.empty()) throw Error("no grid can be contoured; there is " + listNames(file));
+  if (found == nullptr) throw Error(fmt::format("no grid \"{}\"; there is {}", name, listNames(file)));
+  return *found;
+}
+
+}  // namespace
+
+std::vector<VdbGridInfo> listVdbGrids(const std::filesystem::path& path) {
+  return withFileName(path, [&] {
+    VdbFile file(path);
+    std::vector<VdbGridInfo> grids;
+    for (const VdbEntry& entry : file.entries()) {
+      grids.push_back(describe(file, entry, file.readHead(entry)));
+      if (grids.back().contourable) describeVoxels(*detail::readGrid(path, file, entry), grids.back());
+    }
+    return grids;
+  });
+}
+
+openvdb::GridBase::Ptr readVdbGrid(const std::filesystem::path& path, const std::string& name) {
+  return withFileName(path, [&] {
+    VdbFile file(path);
+    const VdbEntry& entry = findEntry(file, name);
+    if (!detail::isKnownVdbTree(entry.type))
+      throw Error(fmt::format("grid \"{}\" of type {} cannot be contoured; float, double, int32, int64 and bool can",
+                              entry.shownName(), valueType(entry.type)));
+    return detail::readGrid(path, file, entry);
+  });
+}
+
+}  // namespace pdc

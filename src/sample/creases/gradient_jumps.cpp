@@ -1,0 +1,42 @@
+#include "sample/creases/gradient_jumps.h"
+
+#include "math/lane_loops.h"
+
+namespace pdc::detail {
+
+void Kinks::find(int row) {
+  static_assert(kLanes >= kBlockPoints);
+  // The last rows' lanes read beyond what they need, but not beyond the window: it has three more planes of points.
+  static_assert(DistanceWindow::index(8, 8, 0) + kLanes + 2 * DistanceWindow::kStep[0] <=
+                DistanceWindow::index(11, 11, 11) + 1);
+  const float* first = &mWindow.value[DistanceWindow::index(row / kBlockPoints, row % kBlockPoints, 0)];
+  const float tolerance = mTolerance;
+  forEachBlock(mLevel, 1, [&](std::size_t) {
+    std::array<std::int32_t, kLanes> kinked;
+    forEachLane([&](int lane) {
+      std::int32_t any = 0;
+      for (const int step : DistanceWindow::kStep) {
+        const OneSidedSlopes s(first + lane, step);
+        any |= std::int32_t(std::abs(s.above - s.below) > tolerance);
+      }
+      kinked[lane] = any;
+    });
+    unsigned bits = 0;
+    for (int z = 0; z < kBlockPoints; ++z) bits |= static_cast<unsigned>(kinked[z]) << z;
+    mRow[row] = static_cast<std::uint16_t>(bits);
+  });
+  mKnown.set(static_cast<std::size_t>(row));
+}
+
+bool Kinks::noneAt(const Coord& cell) {
+  unsigned any = 0;
+  for (int x = 0; x < 2; ++x)
+    for (int y = 0; y < 2; ++y) {
+      const int row = kBlockPoints * (cell[0] + x) + cell[1] + y;
+      if (!mKnown.test(static_cast<std::size_t>(row))) find(row);
+      any |= mRow[row];
+    }
+  return (any >> cell[2] & 3) == 0;
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,213 @@
+#include "sample/implicit/block_search.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "sample/implicit/block_signs.h"
+
+namespace pdc::detail {
+namespace {
+
+// Blocks sampled between two progress reports; bounds the memory for signs that are thrown away.
+constexpr std::size_t kChunk = 4096;
+
+/// Runs body(i) for i in [0, size) in parallel; stops within one of them.
+template <typename Body>
+void forEach(std::size_t size, const Monitor& monitor, Body&& body) {
+  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
+    monitor.throwIfStopped();
+    body(i);
+  });
+}
+
+Coord blockCounts(const BlockSearch& search) {
+  Coord n;
+  for (int axis = 0; axis < 3; ++axis) n[axis] = (search.cells[axis] + kBlockSize - 1) / kBlockSize;
+  return n;
+}
+
+/// Bound over a cube of 2^level blocks. The cube is grown a little, so that neither the rounding of lattice points nor
+/// that of bound() itself can hide a surface that touches it.
+Interval boundOf(const BlockSearch& search, const Coord& cube, int level) {
+  constexpr double kRelativeMargin = 1e-6;
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  const double size = std::ldexp(kBlockSize, level);
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = cube[axis] * size;
+    const double lo = search.frame.at(axis, first), hi = search.frame.at(axis, first + size);
+    const double margin = kRelativeMargin * search.frame.voxelSize + kRounding * std::max(std::abs(lo), std::abs(hi));
+    box.lo[axis] = lo - margin;
+    box.hi[axis] = hi + margin;
+  }
+  return search.field.bound(box);
+}
+
+bool oneSided(const Interval& bound) { return bound.lo >= 0 || bound.hi < 0; }
+
+/// The cubes of the next finer level that reach into the lattice.
+std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks) {
+  std::vector<Coord> result;
+  result.reserve(8 * cubes.size());
+  for (const Coord& cube : cubes)
+    for (int corner = 0; corner < 8; ++corner) {
+      const Coord child{2 * cube[0] + (corner >> 2), 2 * cube[1] + (corner >> 1 & 1), 2 * cube[2] + (corner & 1)};
+      bool within = true;
+      for (int axis = 0; axis < 3; ++axis) within = within && child[axis] << level < blocks[axis];
+      if (within) result.push_back(child);
+    }
+  return result;
+}
+
+void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes) {
+  std::vector<std::uint8_t> drop(cubes.size());
+  forEach(cubes.size(), monitor, [&](std::size_t i) { drop[i] = oneSided(boundOf(search, cubes[i], level)); });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+    if (drop[i] == 0) cubes[kept++] = cubes[i];
+  cubes.resize(kept);
+}
+
+/// All blocks whose parents the field's bounds do not exclude, sorted.
+std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor) {
+  const Coord blocks = blockCounts(search);
+  int level = 0;
+  while (1 << level < std::max({blocks[0], blocks[1], blocks[2]})) ++level;
+  std::vector<Coord> cubes{Coord{0, 0, 0}};
+  while (level > 0) {
+    dropOneSided(search, level, monitor, cubes);
+    cubes = children(cubes, --level, blocks);
+  }
+  std::sort(cubes.begin(), cubes.end());
+  return cubes;
+}
+
+bool sampleBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
+  sampleSigns(search.field, search.frame, block, signs);
+  signs.cells = search.open ? cellsWithin(block, search.cells) : CellMask::all();
+  return !signs.uniform() && !signs.cells.none();
+}
+
+bool searchBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
+  const Interval bound = boundOf(search, block, 0);
+  if (oneSided(bound)) return false;
+  if (!bound.bounded() && !coarseSignsDiffer(search.field, search.frame, block)) return false;
+  return sampleBlock(search, block, signs);
+}
+
+/// Appends those of `blocks` for which test(block, signs) finds surface, in order.
+template <typename Test, typename Progress>
+void appendSurface(const std::vector<Coord>& blocks, const Monitor& monitor, SurfaceBlocks& surface, Test&& test,
+                   Progress&& progress) {
+  std::vector<BlockSigns> signs(std::min(kChunk, blocks.size()));
+  std::vector<std::uint8_t> keep(signs.size());
+  for (std::size_t first = 0; first < blocks.size(); first += kChunk) {
+    const std::size_t size = std::min(kChunk, blocks.size() - first);
+    forEach(size, monitor, [&](std::size_t i) { keep[i] = test(blocks[first + i], signs[i]); });
+    for (std::size_t i = 0; i < size; ++i) {
+      if (keep[i] == 0) continue;
+      surface.coords.push_back(blocks[first + i]);
+      surface.signs.push_back(signs[i]);
+    }
+    progress(static_cast<double>(first + size) / static_cast<double>(blocks.size()));
+  }
+}
+
+std::uint64_t key(const Coord& block) {
+  constexpr int kBits = 21;
+  return (static_cast<std::uint64_t>(block[0]) << kBits | static_cast<std::uint64_t>(block[1])) << kBits |
+         static_cast<std::uint64_t>(block[2]);
+}
+
+Coord neighbour(const Coord& block, int face) {
+  Coord n = block;
+  n[face / 2] += face % 2 == 0 ? -1 : 1;
+  return n;
+}
+
+/// The blocks of the lattice that surface runs into from surface.coords[first...) and that known(block) does not hold.
+template <typename Known>
+std::vector<Coord> missingNeighbours(const BlockSearch& search, const SurfaceBlocks& surface, std::size_t first,
+                                     const Monitor& monitor, Known&& known) {
+  const Coord blocks = blockCounts(search);
+  const auto within = [&](const Coord& c) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (c[axis] < 0 || c[axis] >= blocks[axis]) return false;
+    return true;
+  };
+  std::vector<std::uint8_t> faces(surface.coords.size() - first);
+  forEach(faces.size(), monitor, [&](std::size_t i) {
+    for (int face = 0; face < 6; ++face) {
+      const Coord n = neighbour(surface.coords[first + i], face);
+      const bool missing = within(n) && faceSignsDiffer(surface.signs[first + i], face / 2, face % 2 != 0) && !known(n);
+      faces[i] = static_cast<std::uint8_t>(faces[i] | unsigned{missing} << face);
+    }
+  });
+  std::vector<Coord> missing;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (int face = 0; face < 6; ++face)
+      if ((faces[i] >> face & 1) != 0) missing.push_back(neighbour(surface.coords[first + i], face));
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  return missing;
+}
+
+/// Follows the surface across block faces until it meets only itself or the lattice's limits.
+void grow(const BlockSearch& search, const Monitor& monitor, SurfaceBlocks& surface) {
+  const std::vector<Coord> found = surface.coords;
+  std::unordered_set<std::uint64_t> grown;
+  const auto known = [&](const Coord& block) {
+    return std::binary_search(found.begin(), found.end(), block) || grown.contains(key(block));
+  };
+  for (std::size_t first = 0; first < surface.coords.size();) {
+    const std::vector<Coord> missing = missingNeighbours(search, surface, first, monitor, known);
+    first = surface.coords.size();
+    for (const Coord& block : missing) grown.insert(key(block));
+    appendSurface(
+        missing, monitor, surface,
+        [&](const Coord& block, BlockSigns& signs) { return sampleBlock(search, block, signs); }, [](double) {});
+  }
+}
+
+void sortByCoordinate(SurfaceBlocks& surface) {
+  std::vector<std::size_t> order(surface.coords.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return surface.coords[a] < surface.coords[b]; });
+  SurfaceBlocks sorted;
+  sorted.coords.reserve(order.size());
+  sorted.signs.reserve(order.size());
+  for (const std::size_t i : order) {
+    sorted.coords.push_back(surface.coords[i]);
+    sorted.signs.push_back(surface.signs[i]);
+  }
+  surface = std::move(sorted);
+}
+
+}  // namespace
+
+SurfaceBlocks findSurfaceBlocks(const BlockSearch& search, const Monitor& monitor) {
+  const auto report = [&](double share) {
+    if (monitor.progress) monitor.progress("sample", share);
+  };
+  monitor.throwIfStopped();
+  SurfaceBlocks surface;
+  appendSurface(
+      candidates(search, monitor), monitor, surface,
+      [&](const Coord& block, BlockSigns& signs) { return searchBlock(search, block, signs); }, report);
+  const std::size_t found = surface.coords.size();
+  grow(search, monitor, surface);
+  if (surface.coords.size() > found) sortByCoordinate(surface);
+  surface.open = search.open;
+  return surface;
+}
+
+}  // namespace pdc::detail

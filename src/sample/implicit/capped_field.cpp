@@ -1,0 +1,64 @@
+#include "sample/implicit/capped_field.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pdc::detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double slabs(const Box& box, double x, double y, double z) {
+  return std::max({box.lo.x - x, x - box.hi.x, box.lo.y - y, y - box.hi.y, box.lo.z - z, z - box.hi.z});
+}
+
+Vec3d slabsGradient(const Box& box, double distance, const Vec3d& p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3d g{};
+    g[axis] = 1;
+    if (distance == p[axis] - box.hi[axis]) return g;
+    if (distance == box.lo[axis] - p[axis]) return -g;
+  }
+  return {};
+}
+
+}  // namespace
+
+CappedField::CappedField(FieldPtr field, double iso)
+    : CappedField(std::move(field), iso, {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}) {}
+
+CappedField::CappedField(FieldPtr field, double iso, const Box& box) : mField(std::move(field)), mIso(iso), mBox(box) {}
+
+void CappedField::values(PointSpan points, double* values) const {
+  mField->values(points, values);
+  // In this order of arguments NaN wins, and NaN is outside.
+  for (std::size_t i = 0; i < points.size; ++i)
+    values[i] = std::max(values[i] - mIso, slabs(mBox, points.x[i], points.y[i], points.z[i]));
+}
+
+void CappedField::gradients(PointSpan points, double* values, GradientSpan gradients) const {
+  mField->gradients(points, values, gradients);
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const Vec3d p{points.x[i], points.y[i], points.z[i]};
+    values[i] -= mIso;
+    const double cap = slabs(mBox, p.x, p.y, p.z);
+    if (!(cap > values[i])) continue;
+    const Vec3d g = slabsGradient(mBox, cap, p);
+    values[i] = cap;
+    gradients.x[i] = g.x;
+    gradients.y[i] = g.y;
+    gradients.z[i] = g.z;
+  }
+}
+
+Interval CappedField::bound(const Box& box) const {
+  Interval cap{-kInfinity, -kInfinity};
+  for (int axis = 0; axis < 3; ++axis) {
+    cap = max(cap, {mBox.lo[axis] - box.hi[axis], mBox.lo[axis] - box.lo[axis]});
+    cap = max(cap, {box.lo[axis] - mBox.hi[axis], box.hi[axis] - mBox.hi[axis]});
+  }
+  return max(mField->bound(box) + -mIso, cap);
+}
+
+}  // namespace pdc::detail

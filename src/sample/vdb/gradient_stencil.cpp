@@ -1,0 +1,131 @@
+#include "sample/vdb/gradient_stencil.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "math/lane_loops.h"
+
+namespace pdc::detail {
+namespace {
+
+/// The edges along one axis, as one lane sees them. Written for one edge, vectorised over sixteen: without branches.
+struct AxisKernel {
+  const float* value;
+  const int* point;  ///< Index in the halo of each edge's lower end.
+  int step, stepU, stepV;
+  SlopeLimits limits;
+  Mat3<float> map;  ///< From (along, u, v) to world.
+  float *t, *nx, *ny, *nz;
+
+  [[nodiscard]] int usable(float v) const { return int(v > limits.low) & int(v < limits.high); }
+
+  /// Slope at p along a lattice direction: central, or one-sided where a neighbour is clamped.
+  [[nodiscard]] float slope(const float* p, int s) const {
+    const float below = p[-s], here = p[0], above = p[s];
+    const int a = usable(above), b = usable(below), h = usable(here);
+    const float oneSided = a != 0 ? above - here : here - below;
+    const float central = 0.5F * (above - below);
+    const float chosen = (h & (a ^ b)) != 0 ? oneSided : central;
+    return (h & (a ^ 1) & (b ^ 1)) != 0 ? 0.0F : chosen;
+  }
+
+  void operator()(int i) const {
+    const float* p = value + point[i];
+    const float* q = p + step;
+    const float v0 = p[0], v1 = q[0];
+    const float ratio = v0 / (v0 - v1);
+    // NaN: an end is not finite, or both are zero to single precision.
+    const float at = ratio >= 0 ? (ratio <= 1 ? ratio : 0.5F) : 0.5F;
+    const float along = v1 - v0;
+    const float u = (1 - at) * slope(p, stepU) + at * slope(q, stepU);
+    const float v = (1 - at) * slope(p, stepV) + at * slope(q, stepV);
+    const float gx = map.row[0].x * along + map.row[0].y * u + map.row[0].z * v;
+    const float gy = map.row[1].x * along + map.row[1].y * u + map.row[1].z * v;
+    const float gz = map.row[2].x * along + map.row[2].y * u + map.row[2].z * v;
+    // By the largest component first: the square of a float may not be one.
+    const float ax = std::abs(gx), ay = std::abs(gy), az = std::abs(gz);
+    const float xy = ax > ay ? ax : ay, largest = xy > az ? xy : az;
+    const float inverse = 1 / largest;
+    const float x = gx * inverse, y = gy * inverse, z = gz * inverse;
+    const float scale = 1 / std::sqrt(x * x + y * y + z * z);
+    const float known = x * scale + y * scale + z * scale;  // NaN where any of it is.
+    t[i] = at;
+    nx[i] = known == known ? x * scale : 0.0F;
+    ny[i] = known == known ? y * scale : 0.0F;
+    nz[i] = known == known ? z * scale : 0.0F;
+  }
+};
+
+}  // namespace
+
+HaloRows::HaloRows(const EdgeIndex& edges) {
+  constexpr int n = Halo::kPoints;
+  std::array<unsigned, n> needed{};  // By x + 1; bit y + 1.
+  // Slopes across an edge are taken at both of its ends.
+  const std::uint16_t* point = edges.points();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<unsigned, kBlockPoints> from{};
+    bool lowest = false;
+    for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
+      from[point[i] >> 8] |= 2u << (point[i] >> 4 & 15);
+      lowest |= (point[i] & 15) == 0;
+    }
+    mBelow = mBelow || (axis != 2 && lowest);
+    for (int x = 0; x < kBlockPoints; ++x) {
+      const unsigned ends = axis == 1 ? from[x] | from[x] << 1 : from[x];
+      const unsigned beside = axis == 1 ? ends : ends | ends >> 1 | ends << 1;
+      needed[x + 1] |= beside;
+      if (axis == 0) {
+        needed[x + 2] |= beside;
+      } else {
+        needed[x] |= ends;
+        needed[x + 2] |= ends;
+      }
+    }
+  }
+  std::array<unsigned, 3> ofLayer{};
+  for (int x = 0; x < n; ++x) ofLayer[Halo::part(x - 1)] |= needed[x];
+  constexpr unsigned kPart[3] = {1, 0xFF << 1, 3 << 9};
+  for (int part = 0; part < 9; ++part) mParts |= unsigned{(ofLayer[part / 3] & kPart[part % 3]) != 0} << part;
+  constexpr int kAtOnce = 5;  // Layers that fit into a word: a loop over few bits ends unforeseen.
+  for (int first = 0; first < n; first += kAtOnce) {
+    std::uint64_t word = 0;
+    for (int x = first; x < n && x < first + kAtOnce; ++x) word |= std::uint64_t{needed[x]} << n * (x - first);
+    for (; word != 0; word &= word - 1) mRow[mSize++] = static_cast<std::uint8_t>(n * first + std::countr_zero(word));
+  }
+}
+
+void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& limits, const Mat3<float>& normalMap,
+                  HermiteBlock& hermite, SimdLevel level) {
+  static_assert(HermiteBlock::kCapacity >= EdgeIndex::kMaxEdges + kLanes);
+  std::array<int, HermiteBlock::kCapacity> point;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int begin = edges.begin(axis), count = edges.begin(axis + 1) - begin;
+    if (count == 0) continue;
+    const int blocks = static_cast<int>(blockCount(static_cast<std::size_t>(count)));
+    const std::uint16_t* packed = edges.points() + begin;
+    forEachBlock(level, static_cast<std::size_t>(blocks), [&](std::size_t block) {
+      forEachLane([to = &point[block * kLanes], from = packed + block * kLanes](int i) {
+        const int p = from[i];
+        to[i] = Halo::index(p >> 8, p >> 4 & 15, p & 15);
+      });
+    });
+    std::fill(point.begin() + count, point.begin() + blocks * kLanes, point[0]);
+
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Mat3<float> map;
+    for (int r = 0; r < 3; ++r) map.row[r] = {normalMap.row[r][axis], normalMap.row[r][u], normalMap.row[r][v]};
+    // Later axes overwrite what the last register of this one writes beyond its end.
+    const AxisKernel kernel{
+        halo.value.data(), point.data(),       Halo::kStep[axis],  Halo::kStep[u],    Halo::kStep[v], limits, map,
+        &hermite.t[begin], &hermite.nx[begin], &hermite.ny[begin], &hermite.nz[begin]};
+    forEachBlock(level, static_cast<std::size_t>(blocks), [&kernel](std::size_t block) {
+      const int first = static_cast<int>(block) * kLanes;
+      forEachLane([&](int lane) { kernel(first + lane); });
+    });
+  }
+}
+
+}  // namespace pdc::detail

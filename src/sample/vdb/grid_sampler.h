@@ -1,0 +1,40 @@
+#pragma once
+
+#include <openvdb/Grid.h>
+
+#include <memory>
+#include <vector>
+
+#include "pdc/sample/hermite_source.h"
+#include "sample/creases/distance_stencil.h"
+
+namespace pdc::detail {
+
+/// How a grid's values are read as a function that is negative inside.
+struct GridReading {
+  double iso = 0;
+  bool insideIsHigher = false;
+  bool open = false;
+  bool acceptNonFinite = false;
+  /// The grid is a clamped distance: values this far from zero carry no slope. Infinite for other grids.
+  double clamp = 0;
+};
+
+/// The part of GridSource that depends on the value type.
+class GridSampler {
+ public:
+  virtual ~GridSampler() = default;
+  [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+  virtual void expect(const Coord& block) const = 0;
+  virtual void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
+                           HermiteBlock& hermite) const = 0;
+  /// Up to `most` leaves, as blocks, spread evenly over the tree.
+  [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
+  /// The values about a block times `scale`, in the window's rows.
+  virtual void readWindow(const Coord& block, float scale, DistanceWindow& window) const = 0;
+};
+
+/// \returns null if the grid's type is not one of float, double, int32, int64, bool.
+std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid, const GridReading& reading);
+
+}  // namespace pdc::detail

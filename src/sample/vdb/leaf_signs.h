@@ -1,0 +1,126 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <atomic>
+#include <type_traits>
+#include <vector>
+
+#include "math/lane_loops.h"
+#include "pdc/sample/hermite_block.h"
+#include "sample/vdb/leaf_table.h"
+#include "sample/vdb/value_reader.h"
+
+namespace pdc::detail {
+
+/// Gives a leaf's 512 values by offset; booleans, which leaves store as bits, are copied for that.
+template <typename LeafT>
+class LeafValues {
+ public:
+  using ValueT = typename LeafT::ValueType;
+  static constexpr bool kCopies = std::is_same_v<ValueT, bool>;
+
+  /// \param values as the leaf stores them. \returns them, or the copy, valid until the next call.
+  [[nodiscard]] const ValueT* read(const LeafT& leaf, const ValueT* values) {
+    if constexpr (kCopies) {
+      for (openvdb::Index i = 0; i < LeafT::SIZE; ++i) mCopy[i] = leaf.getValue(i);
+      return mCopy.data();
+    } else {
+      return values;
+    }
+  }
+
+ private:
+  std::array<ValueT, kCopies ? LeafT::SIZE : 0> mCopy;
+};
+
+/// Where the points of a block lie.
+enum class Side : std::uint8_t { kOutside, kInside, kBoth };
+
+/// Which points of a tree's leaves are inside.
+template <typename TreeT>
+class LeafSigns {
+ public:
+  using LeafT = typename TreeT::LeafNodeType;
+  using ValueT = typename TreeT::ValueType;
+  using Table = LeafTable<TreeT>;
+
+  /// Reads all leaves in parallel. \throws Error for non-finite values that were not accepted.
+  LeafSigns(const Table& table, const ValueReader<ValueT>& reader, bool acceptNonFinite)
+      : mTable(table), mReader(reader), mInside(table.size()), mSide(table.size()) {
+    std::atomic<bool> allFinite = true;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table.size(), 64), [&](const auto& range) {
+      LeafValues<LeafT> values;
+      bool finite = true;
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        if (i + 1 < range.end()) prefetch(table.values(i + 1));
+        readLeaf(values.read(table.leaf(i), table.values(i)), mInside[i], finite);
+        mSide[i] = sideOf(mInside[i]);
+      }
+      if (!finite) allFinite.store(false, std::memory_order_relaxed);
+    });
+    if (!allFinite && !acceptNonFinite) rejectNonFinite();
+  }
+
+  [[nodiscard]] const CellMask& inside(std::size_t leaf) const { return mInside[leaf]; }
+  [[nodiscard]] Side side(std::size_t leaf) const { return mSide[leaf]; }
+  [[nodiscard]] Side side(const typename Table::Place& place) const {
+    if (place.leaf >= 0) return mSide[static_cast<std::size_t>(place.leaf)];
+    return mReader.inside(place.tile) ? Side::kInside : Side::kOutside;
+  }
+  /// The points of whatever lies in a place, bits as in CellMask.
+  [[nodiscard]] CellMask mask(const typename Table::Place& place) const {
+    if (place.leaf >= 0) return mInside[static_cast<std::size_t>(place.leaf)];
+    return mReader.inside(place.tile) ? CellMask::all() : CellMask{};
+  }
+
+ private:
+  /// A leaf's values span few pages, which the processor does not follow by itself.
+  static void prefetch(const ValueT* values) {
+    if constexpr (!LeafValues<LeafT>::kCopies)
+      for (std::size_t i = 0; i < LeafT::SIZE; i += 64 / sizeof(ValueT)) __builtin_prefetch(values + i);
+  }
+
+  void readLeaf(const ValueT* values, CellMask& inside, bool& allFinite) const {
+    forEachBlock(mLevel, kBlockSize,
+                 [&](std::size_t x) { inside.word[x] = mReader.insideBits(values + 64 * x, allFinite); });
+  }
+
+  static Side sideOf(const CellMask& inside) {
+    std::uint64_t any = 0, all = ~std::uint64_t{0};
+    for (const std::uint64_t w : inside.word) {
+      any |= w;
+      all &= w;
+    }
+    return any == 0 ? Side::kOutside : ~all == 0 ? Side::kInside : Side::kBoth;
+  }
+
+  /// \throws Error that counts the voxels that are not finite and names the first.
+  [[noreturn]] void rejectNonFinite() const {
+    const auto finite = [](const ValueT& v) { return ValueReader<ValueT>::finite(v); };
+    std::size_t total = 0;
+    const LeafT* first = &mTable.leaf(0);
+    openvdb::Index offset = 0;
+    for (std::size_t l = 0; l < mTable.size(); ++l)
+      for (openvdb::Index i = 0; i < LeafT::SIZE; ++i) {
+        if (finite(mTable.leaf(l).getValue(i)) || total++ > 0) continue;
+        first = &mTable.leaf(l);
+        offset = i;
+      }
+    const openvdb::Coord at = first->offsetToGlobalCoord(offset);
+    throw Error(fmt::format(
+        "{} voxels are not finite, the first at ({}, {}, {}) is {}; accept them as outside if that is meant", total,
+        at.x(), at.y(), at.z(), static_cast<double>(first->getValue(offset))));
+  }
+
+  const Table& mTable;
+  const ValueReader<ValueT>& mReader;
+  const SimdLevel mLevel = bestSimdLevel();
+  Buffer<CellMask> mInside;
+  Buffer<Side> mSide;
+};
+
+}  // namespace pdc::detail

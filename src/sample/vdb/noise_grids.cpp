@@ -1,0 +1,121 @@
+#include "sample/vdb/noise_grids.h"
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sample/creases/distance_stencil.h"
+
+namespace pdc::detail {
+namespace {
+
+std::size_t countRefused(const openvdb::GridBase& grid) {
+  std::size_t refused = 0;
+  const auto count = [&](const auto& typed) {
+    for (auto it = typed.cbeginValueOn(); it; ++it) {
+      const auto v = static_cast<double>(*it);
+      if (!(v >= 0 && std::isfinite(v))) ++refused;
+    }
+  };
+  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
+                               openvdb::BoolGrid>>(count);
+  return refused;
+}
+
+/// A normal with more noise than this has no say.
+constexpr float kMost = 10;
+
+/// Of a companion grid, linear along the edge; what is negative or not finite counts as 0.
+float valueAt(const DistanceWindow& window, int low, int axis, float t) {
+  const auto known = [&](int i) {
+    const float v = window.value[i];
+    return v >= 0 ? v : 0.0F;
+  };
+  return (1 - t) * known(low) + t * known(low + DistanceWindow::kStep[axis]);
+}
+
+/// Where the window holds the low end of each edge: visit(edge, axis, index).
+template <typename Visit>
+void forEachLow(const EdgeIndex& edges, Visit&& visit) {
+  edges.forEach([&](int i, int axis, int x, int y, int z) { visit(i, axis, DistanceWindow::index(x, y, z)); });
+}
+
+/// The gradient's length where an edge crosses, per voxel along the lattice, from the differences that GridSource makes
+/// its normal of.
+float slopeAt(const DistanceWindow& values, int low, int axis, float t) {
+  const auto& v = values.value;
+  const int high = low + DistanceWindow::kStep[axis];
+  const float along = v[high] - v[low];
+  float squares = along * along;
+  for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const int s = DistanceWindow::kStep[other];
+    const float across = 0.5F * ((1 - t) * (v[low + s] - v[low - s]) + t * (v[high + s] - v[high - s]));
+    if (std::isfinite(across)) squares += across * across;  // Not beside clamped values.
+  }
+  return std::sqrt(squares);
+}
+
+/// Standard deviation of a component of the normal, the mean over components, where values have deviation one and the
+/// gradient has length one: a difference along the edge has twice the variance of a value, differences across it are
+/// halved and blended from both ends.
+float stencilNoise(float t) {
+  const float across = 0.5F * ((1 - t) * (1 - t) + t * t);
+  return std::sqrt((2 + 2 * across) / 3);
+}
+
+}  // namespace
+
+NoiseGrids::NoiseGrids(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options)
+    : mSigma(open(grid, options.sigma, "sigma")), mWeight(open(grid, options.weight, "weight")) {}
+
+std::unique_ptr<const GridSampler> NoiseGrids::open(const openvdb::GridBase::ConstPtr& grid,
+                                                    const openvdb::GridBase::ConstPtr& companion, const char* name) {
+  if (companion == nullptr) return nullptr;
+  if (companion == grid) throw Error(fmt::format("the {} grid is the grid itself", name));
+  if (companion->transform() != grid->transform())
+    throw Error(fmt::format("the {} grid '{}' has another transform than the grid", name, companion->getName()));
+  const GridReading plain{.acceptNonFinite = true, .clamp = std::numeric_limits<double>::infinity()};
+  auto sampler = makeGridSampler(companion, plain);
+  if (sampler == nullptr)
+    throw Error(fmt::format("the {} grid is of type {}; float, double, int32, int64 and bool can be used", name,
+                            companion->valueType()));
+  mRefused += countRefused(*companion);
+  return sampler;
+}
+
+void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
+                      const GridSampler& values, PlaneNoise& noise) const {
+  DistanceWindow window;
+  if (mWeight != nullptr) {
+    mWeight->readWindow(block, 1, window);
+    forEachLow(edges, [&](int i, int axis, int low) { noise.weight[i] = valueAt(window, low, axis, hermite.t[i]); });
+  } else {
+    std::fill_n(noise.weight.begin(), edges.size(), 1.0F);
+  }
+  if (mSigma == nullptr) {
+    std::fill_n(noise.sigma.begin(), edges.size(), 0.0F);
+    return;
+  }
+  mSigma->readWindow(block, 1, window);
+  forEachLow(edges, [&](int i, int axis, int low) { noise.sigma[i] = valueAt(window, low, axis, hermite.t[i]); });
+  values.readWindow(block, 1, window);
+  forEachLow(edges, [&](int i, int axis, int low) {
+    if (noise.sigma[i] == 0) return;
+    const float ratio = noise.sigma[i] / slopeAt(window, low, axis, hermite.t[i]);
+    noise.sigma[i] = std::min(stencilNoise(hermite.t[i]) * ratio, kMost);
+  });
+}
+
+double NoiseGrids::largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const {
+  DistanceWindow window;
+  mSigma->readWindow(block, 1, window);
+  float largest = 0;
+  forEachLow(edges,
+             [&](int i, int axis, int low) { largest = std::max(largest, valueAt(window, low, axis, hermite.t[i])); });
+  return double{largest};
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "math/float_lanes.h"
+#include "sample/vdb/grid_sampler.h"
+
+namespace pdc::detail {
+
+/// From stored value to the function that is negative inside.
+template <typename ValueT>
+class ValueReader {
+ public:
+  explicit ValueReader(const GridReading& r)
+      : mIso(r.iso),
+        mHigher(r.insideIsHigher),
+        mSign(r.insideIsHigher ? -1.0F : 1.0F),
+        mIsoFloat(float(r.iso)),
+        mIsoIsFloat(static_cast<double>(mIsoFloat) == mIso) {}
+
+  [[nodiscard]] bool inside(ValueT v) const {
+    const auto d = static_cast<double>(v);
+    return mHigher ? d > mIso : d < mIso;
+  }
+  [[nodiscard]] float value(ValueT v) const { return static_cast<float>(static_cast<double>(v) - mIso) * mSign; }
+
+  /// False for values that must not enter a slope: clamped or not finite.
+  static bool finite(ValueT v) {
+    if constexpr (std::is_floating_point_v<ValueT>) return std::isfinite(v);
+    return true;
+  }
+
+  /// value() of `count` values.
+  template <int count>
+  void copy(const ValueT* from, float* to) const {
+    if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
+      // What double precision would give, where the isovalue is a float. In vectors: whole registers, not to wait for
+      // parts of one that were just stored.
+      int i = 0;
+      for (; i + 8 <= count; i += 8) {
+        Float8 v;
+        std::memcpy(&v, from + i, sizeof v);
+        v = (v - mIsoFloat) * mSign;
+        std::memcpy(to + i, &v, sizeof v);
+      }
+      for (; i < count; ++i) to[i] = (static_cast<float>(from[i]) - mIsoFloat) * mSign;
+    } else {
+      for (int i = 0; i < count; ++i) to[i] = value(from[i]);
+    }
+  }
+
+  /// inside() of 64 values, one per bit. \param allFinite set to false if one is not.
+  [[nodiscard]] std::uint64_t insideBits(const ValueT* from, bool& allFinite) const {
+    std::uint8_t flag[64];
+    if constexpr (std::is_floating_point_v<ValueT>) {
+      int bad = 0;
+      // Vectorises, unlike isfinite().
+      for (int i = 0; i < 64; ++i) bad |= !(std::abs(from[i]) <= std::numeric_limits<ValueT>::max());
+      allFinite = allFinite && bad == 0;
+    }
+    if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
+      const auto iso = static_cast<ValueT>(mIsoFloat);
+      if (mHigher) {
+        for (int i = 0; i < 64; ++i) flag[i] = from[i] > iso;
+      } else {
+        for (int i = 0; i < 64; ++i) flag[i] = from[i] < iso;
+      }
+    } else {
+      for (int i = 0; i < 64; ++i) flag[i] = inside(from[i]);
+    }
+    return packFlags(flag);
+  }
+
+ private:
+  /// Bit i is flag[i], which is 0 or 1.
+  static std::uint64_t packFlags(const std::uint8_t (&flag)[64]) {
+    static_assert(std::endian::native == std::endian::little);
+    std::uint64_t bits = 0;
+    for (int k = 0; k < 8; ++k) {
+      std::uint64_t eight;
+      std::memcpy(&eight, flag + 8 * k, sizeof eight);
+      // Bit i of the product's top byte is byte i of the factor; no two of its terms fall on one bit.
+      bits |= (eight * 0x0102040810204080 >> 56) << 8 * k;
+    }
+    return bits;
+  }
+
+  double mIso;
+  bool mHigher;
+  float mSign, mIsoFloat;
+  bool mIsoIsFloat;
+};
+
+}  // namespace pdc::detail

@@ -1,0 +1,180 @@
+#include "pdc/study/sweep.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "parallel/with_threads.h"
+#include "pdc/mesh/distance.h"
+#include "pdc/mesh/mesh_report.h"
+#include "pdc/mesh/minimum_angles.h"
+#include "pdc/mesh/roughness.h"
+#include "pdc/mesh/self_intersections.h"
+#include "pdc/sample/normal_noise.h"
+#include "pdc/sample/sampled_source.h"
+#include "study/recommend_sigma.h"
+
+namespace pdc {
+namespace {
+
+/// Parts whose faces turn by less than this about a vertex are flat: half of what counts as a crease elsewhere.
+constexpr double kFlatDegrees = 15;
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - mStart).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+};
+
+/// To first order.
+Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field) {
+  Buffer<double> result(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Vec3d p = vecCast<double>(points[i]);
+      double value = 0;
+      Vec3d g{};
+      field.gradients({&p.x, &p.y, &p.z, 1}, &value, {&g.x, &g.y, &g.z});
+      result[i] = std::abs(value) / length(g);
+    }
+  });
+  return result;
+}
+
+/// Root mean square and maximum of the finite ones, divided by the voxel size; empty if there are none.
+void summarize(const Buffer<double>& lengths, double voxelSize, std::optional<double>& rms,
+               std::optional<double>& max) {
+  double squares = 0, most = 0, count = 0;
+  for (const double d : lengths) {
+    if (!std::isfinite(d)) continue;
+    squares += d * d;
+    most = std::max(most, d);
+    count += 1;
+  }
+  if (count == 0) return;
+  rms = std::sqrt(squares / count) / voxelSize;
+  max = most / voxelSize;
+}
+
+std::array<double, 3> anglePercentiles(const Mesh& mesh) {
+  Buffer<float> angles = minimumAngles(mesh);
+  std::erase_if(angles, [](float a) { return std::isnan(a); });
+  std::array<double, 3> result{};
+  if (angles.empty()) return result;
+  constexpr std::array kShares{0.01, 0.05, 0.5};
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    const auto at = angles.begin() + static_cast<std::ptrdiff_t>(kShares[i] * static_cast<double>(angles.size() - 1));
+    std::nth_element(angles.begin(), at, angles.end());
+    result[i] = static_cast<double>(*at);
+  }
+  return result;
+}
+
+/// Fills all of a step but what contour() said.
+void measure(const Mesh& mesh, const std::vector<std::uint8_t>& flat, const SweepTruth& truth, SweepStep& step) {
+  step.vertices = mesh.positions.size();
+  step.faces = mesh.quads.size() + mesh.triangles.size();
+  if (mesh.empty()) return;
+  if (truth.field != nullptr) {
+    summarize(distancesToField(mesh.positions, *truth.field), step.voxelSize, step.vertexRms, step.vertexMax);
+  } else if (truth.reference != nullptr) {
+    summarize(distances(mesh.positions, *truth.reference), step.voxelSize, step.vertexRms, step.vertexMax);
+  }
+  if (!truth.creases.empty()) summarize(distances(truth.creases, mesh), step.voxelSize, step.creaseRms, step.creaseMax);
+  step.roughness = roughness(mesh, flat) / step.voxelSize;
+  step.minimumAngle = anglePercentiles(mesh);
+  step.selfIntersections = selfIntersections(mesh).pairs.size();
+  step.eulerNumber = analyze(mesh).eulerNumber;
+}
+
+/// Tells a monitor of the whole what a part reports of itself.
+Monitor partOf(const Monitor& whole, std::size_t part, std::size_t parts) {
+  if (!whole.progress) return whole;
+  return {.progress =
+              [&whole, part, parts](const char* stage, double share) {
+                whole.progress(stage, (static_cast<double>(part) + share) / static_cast<double>(parts));
+              },
+          .stop = whole.stop};
+}
+
+void checkValues(const std::vector<double>& values) {
+  if (values.empty()) throw std::invalid_argument("sweep: no values");
+}
+
+Sweep runSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
+               const Monitor& monitor) {
+  Sweep sweep{.parameter = "sigma_n"};
+  const Stopwatch sampling;
+  const SampledSource sampled(source, monitor);
+  sweep.secondsSample = sampling.seconds();
+  for (const double sigma : sigmas) {
+    SweepStep step{.value = sigma, .voxelSize = source.map().voxelSize()};
+    ContourOptions contourOptions = options.contour;
+    contourOptions.sigmaNormal = sigma;
+    const Stopwatch contouring;
+    sweep.meshes.push_back(
+        contour(sampled, contourOptions, &step.contour, partOf(monitor, sweep.steps.size(), 2 * sigmas.size())));
+    step.seconds = contouring.seconds();
+    sweep.steps.push_back(step);
+  }
+  // The same vertices for all: those that are flat where no normal has a say.
+  const std::vector<std::uint8_t> flat = flatVertices(
+      contour(sampled, {.sigmaNormal = std::numeric_limits<double>::infinity(), .placement = Placement::kCell}),
+      kFlatDegrees);
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
+    monitor.throwIfStopped();
+    measure(sweep.meshes[i], flat, options.truth, sweep.steps[i]);
+    if (monitor.progress) monitor.progress("measuring", 0.5 * (1 + static_cast<double>(i + 1) / double(sigmas.size())));
+  }
+  sweep.normalNoise = normalNoise(sampled, monitor);
+  detail::recommendSigma(sweep);
+  return sweep;
+}
+
+Sweep runInputs(const std::string& parameter, const std::vector<double>& values,
+                const std::function<SweepInput(double)>& open, const SweepOptions& options, const Monitor& monitor) {
+  Sweep sweep{.parameter = parameter};
+  for (const double value : values) {
+    const SweepInput input = open(value);
+    SweepStep step{.value = value, .voxelSize = input.source->map().voxelSize()};
+    const Stopwatch contouring;
+    Mesh mesh =
+        contour(*input.source, options.contour, &step.contour, partOf(monitor, sweep.steps.size(), values.size()));
+    step.seconds = contouring.seconds();
+    measure(mesh, flatVertices(mesh, kFlatDegrees), input.truth, step);
+    sweep.steps.push_back(step);
+    sweep.meshes.push_back(std::move(mesh));
+  }
+  sweep.reason = "Nothing is recommended: which " + parameter + " is right depends on what the mesh is for.";
+  return sweep;
+}
+
+}  // namespace
+
+Sweep sweepSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
+                 const Monitor& monitor) {
+  checkValues(sigmas);
+  for (const double sigma : sigmas)
+    if (!(sigma >= 0)) throw std::invalid_argument(fmt::format("sweepSigma: σn is {}, must be at least 0", sigma));
+  return detail::withThreads(options.contour.threads, [&] { return runSigma(source, sigmas, options, monitor); });
+}
+
+Sweep sweepInputs(const std::string& parameter, const std::vector<double>& values,
+                  const std::function<SweepInput(double)>& open, const SweepOptions& options, const Monitor& monitor) {
+  checkValues(values);
+  return detail::withThreads(options.contour.threads,
+                             [&] { return runInputs(parameter, values, open, options, monitor); });
+}
+
+}  // namespace pdc

@@ -1,0 +1,136 @@
+#include "extract/vertex_confidence.h"
+
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "eval/inputs.h"
+#include "eval/metrics.h"
+#include "eval/shapes.h"
+#include "pdc/field/operators.h"
+#include "pdc/field/primitives.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_source.h"
+
+namespace pdc {
+namespace {
+
+constexpr double kSize = 14;  ///< Half size of the solids, in voxels.
+constexpr unsigned kPose = 910000;
+
+const ContourOptions kRated{.confidence = true, .ranks = true};
+
+FieldSource turnedBox() {
+  return FieldSource(rotate(box({}, {0.45, 0.45, 0.45}), {1, 2, 3}, 25),
+                     {.box = {{-1, -1, -1}, {1, 1, 1}}, .voxelSize = 1.0 / 16});
+}
+
+class RateVertices : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { openvdb::initialize(); }
+};
+
+/// In the box's own frame: on how many of its planes a point lies.
+int planesThrough(const Vec3f& p) {
+  const FieldPtr slabs[3] = {box({}, {0.45, 9, 9}), box({}, {9, 0.45, 9}), box({}, {9, 9, 0.45})};
+  int planes = 0;
+  for (const FieldPtr& slab : slabs) {
+    double value = 0;
+    const Vec3d x = vecCast<double>(p);
+    rotate(slab, {1, 2, 3}, 25)->values({&x.x, &x.y, &x.z, 1}, &value);
+    planes += std::abs(value) < 1e-4;
+  }
+  return planes;
+}
+
+TEST_F(RateVertices, RanksOfABoxAreItsFacesEdgesAndCorners) {
+  const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .ranks = true});
+  ASSERT_EQ(mesh.ranks.size(), mesh.positions.size());
+  EXPECT_TRUE(mesh.confidence.empty());
+  std::array<int, 4> ranks{};
+  for (std::size_t i = 0; i < mesh.ranks.size(); ++i) {
+    ASSERT_LE(mesh.ranks[i], 3);
+    ++ranks[mesh.ranks[i]];
+    EXPECT_GE(planesThrough(mesh.positions[i]), mesh.ranks[i]) << i;
+  }
+  EXPECT_EQ(ranks[0], 0);
+  EXPECT_GE(ranks[3], 8);
+  EXPECT_GE(ranks[2], 12 * 12);
+  EXPECT_GE(ranks[1], 6 * 10 * 10);
+}
+
+TEST_F(RateVertices, ExactPlanesHaveFullConfidence) {
+  const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .confidence = true});
+  EXPECT_TRUE(mesh.ranks.empty());
+  ASSERT_EQ(mesh.confidence.size(), mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (planesThrough(mesh.positions[i]) == 1) {
+      ASSERT_GT(mesh.confidence[i], 0.999F) << i;
+    }
+}
+
+TEST_F(RateVertices, RanksOfALevelSetAreThoseOfItsCreases) {
+  const auto shapes = eval::makeShapes(kSize);
+  const auto hexagon =
+      std::find_if(shapes.begin(), shapes.end(), [](const eval::Shape& s) { return s.name == "hexagon"; });
+  const eval::Pose pose = eval::randomPose(kPose, kSize);
+  const Mesh mesh = contour(GridSource(eval::makeGrid("exact", *hexagon, pose, 0, 1).grid), kRated);
+  for (const Vec3d& corner : hexagon->corners) {
+    int nearest = 0;
+    double best = 2;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      if (const double d = length(vecCast<double>(mesh.positions[i]) - pose.toWorld(corner)); d < best) {
+        best = d;
+        nearest = mesh.ranks[i];
+      }
+    EXPECT_GE(nearest, 2);
+  }
+  EXPECT_GE(std::count(mesh.ranks.begin(), mesh.ranks.end(), 3), 8);
+}
+
+TEST_F(RateVertices, AskingChangesNothingElseAndThreadsDoNotMatter) {
+  const auto shapes = eval::makeShapes(kSize);
+  const eval::GridInput input = eval::makeGrid("exact", shapes[2], eval::randomPose(kPose, kSize), 0.1, 1);
+  const GridSource source(input.grid);
+  ContourReport report;
+  const Mesh plain = contour(source, {}, &report), rated = contour(source, kRated);
+  EXPECT_GT(report.fans, 0u);  // Whose vertices are rated too.
+  EXPECT_EQ(rated.positions, plain.positions);
+  EXPECT_EQ(rated.quads, plain.quads);
+  EXPECT_EQ(rated.triangles, plain.triangles);
+  ASSERT_EQ(rated.confidence.size(), rated.positions.size());
+  ASSERT_EQ(rated.ranks.size(), rated.positions.size());
+  for (const float c : rated.confidence) ASSERT_TRUE(c > 0 && c <= 1) << c;
+  for (const int threads : {1, 3}) {
+    const Mesh again =
+        contour(source, {.triangles = threads == 3, .confidence = true, .ranks = true, .threads = threads});
+    EXPECT_EQ(again.confidence, rated.confidence);
+    EXPECT_EQ(again.ranks, rated.ranks);
+  }
+}
+
+/// Over the vertices of solids that no constant was chosen with. Planes from distances share their samples with those
+/// of neighbours: their errors are alike, so that less can be told of them.
+TEST_F(RateVertices, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
+  for (const auto& [mode, least] : {std::pair{HermiteMode::kGradient, 0.55}, {HermiteMode::kDistance, 0.5}}) {
+    std::vector<double> doubt, error;
+    for (const eval::Shape& shape : eval::makeShapes(kSize)) {
+      if (!shape.heldOut) continue;
+      for (const double noise : {0.02, 0.05, 0.1}) {
+        const eval::Pose pose = eval::randomPose(kPose, kSize);
+        const GridSource source(eval::makeGrid("exact", shape, pose, noise, 1).grid, {.hermite = mode});
+        const Mesh mesh = contour(source, {.confidence = true});
+        for (const float c : mesh.confidence) doubt.push_back(-c);
+        const std::vector<double> errors = eval::vertexErrors(mesh, shape, pose);
+        error.insert(error.end(), errors.begin(), errors.end());
+      }
+    }
+    EXPECT_GT(eval::rankCorrelation(doubt, error), least);
+  }
+}
+
+}  // namespace
+}  // namespace pdc

@@ -1,0 +1,184 @@
+#include "sample/creases/distance_planes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "sample/creases/crease_sheets.h"
+#include "sample/creases/gradient_jumps.h"
+#include "sample/creases/voxel_planes.h"
+
+namespace pdc::detail {
+namespace {
+
+constexpr PlaneTolerance kTolerance{.error = 0.04F, .usual = 0.001F, .kink = 0.01F};
+
+Vec3d unit(Vec3d v) { return v * (1 / length(v)); }
+
+const Vec3d kLeft = unit({-0.8, 0.3, 0.5}), kRight = unit({0.7, 0.4, 0.6});
+const Vec3d kTip{4.3, 4.2, 4.4};
+
+/// The distance to the solid between two planes that meet at kTip, as its inside and the parts before its faces see it;
+/// beyond them the edge is nearest.
+double wedge(const Vec3d& p) {
+  const double a = dot(p - kTip, kLeft), b = dot(p - kTip, kRight);
+  const Vec3d onLeft = p - kLeft * a, onRight = p - kRight * b;
+  if (dot(onLeft - kTip, kRight) <= 0 || dot(onRight - kTip, kLeft) <= 0 || std::max(a, b) <= 0) return std::max(a, b);
+  const Vec3d along = unit(cross(kLeft, kRight)), d = p - kTip;
+  return length(d - along * dot(d, along));
+}
+
+double ball(const Vec3d& p) { return length(p - Vec3d{-9, 3, 2}) - 13; }
+
+DistanceWindow window(const std::function<double(const Vec3d&)>& distance) {
+  DistanceWindow w;
+  for (int x = -3; x <= 11; ++x)
+    for (int y = -3; y <= 11; ++y)
+      for (int z = -3; z <= 11; ++z)
+        w.value[DistanceWindow::index(x, y, z)] = static_cast<float>(distance({double(x), double(y), double(z)}));
+  return w;
+}
+
+double degrees(const Vec3f& a, const Vec3d& b) {
+  return std::acos(std::min(1.0, dot(vecCast<double>(a), b))) * 180 / 3.14159265358979323846;
+}
+
+SurfaceSamples samplesAbout(const DistanceWindow& w, const Coord& cell, const Mat3f& M = Mat3f::identity(),
+                            SimdLevel level = bestSimdLevel()) {
+  const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, M, level);
+  SurfaceSamples samples;
+  voxels->expect(cell);
+  voxels->gather(cell, samples);
+  return samples;
+}
+
+/// Where a sample of the cell {4, 4, 4} lies, from kTip; the lattice's steps are one voxel.
+Vec3d fromTip(const SurfaceSamples& samples, int i) {
+  return vecCast<double>(samples.foot(i)) + Vec3d{4.5, 4.5, 4.5} - kTip;
+}
+
+TEST(VoxelPlanes, APlaneIsFoundExactly) {
+  const SurfaceSamples samples = samplesAbout(window([](const Vec3d& p) { return dot(p - kTip, kLeft); }), {4, 4, 4});
+  ASSERT_EQ(samples.count, 64);
+  for (int i = 0; i < samples.count; ++i) {
+    EXPECT_LT(degrees(samples.normal(i), kLeft), 0.05);
+    EXPECT_NEAR(dot(fromTip(samples, i), kLeft), 0, 1e-5);
+  }
+}
+
+TEST(VoxelPlanes, BesideAnEdgeTrustedPlanesAreThoseOfItsSides) {
+  const SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4});
+  int left = 0, right = 0;
+  for (int i = 0; i < samples.count; ++i) {
+    if (!(samples.column[SurfaceSamples::kTrust][i] > 0.5F * samples.column[SurfaceSamples::kWeight][i])) continue;
+    const bool isLeft = degrees(samples.normal(i), kLeft) < 1, isRight = degrees(samples.normal(i), kRight) < 1;
+    left += isLeft;
+    right += isRight;
+    // What is nearest to the edge says something true as well: a plane through the edge.
+    const Vec3d along = unit(cross(kLeft, kRight)), foot = fromTip(samples, i);
+    const bool edge = length(foot - along * dot(foot, along)) < 0.05;
+    EXPECT_TRUE(isLeft || isRight || edge) << foot.x << ' ' << foot.y << ' ' << foot.z;
+  }
+  EXPECT_GT(left, 5);
+  EXPECT_GT(right, 5);
+}
+
+TEST(VoxelPlanes, StretchedLatticesGiveTheSamePlanes) {
+  // One lattice step along x is half a voxel, along y two.
+  const auto w = window([](const Vec3d& p) { return dot(Vec3d{0.5 * p.x, 2 * p.y, p.z} - kTip, kLeft); });
+  const SurfaceSamples samples = samplesAbout(w, {5, 2, 3}, Mat3f::diagonal(0.5F, 2, 1));
+  ASSERT_EQ(samples.count, 64);
+  const Vec3d center{0.5 * 5.5, 2 * 2.5, 3.5};
+  for (int i = 0; i < samples.count; ++i) {
+    EXPECT_LT(degrees(samples.normal(i), kLeft), 0.05);
+    EXPECT_NEAR(dot(vecCast<double>(samples.foot(i)) + center - kTip, kLeft), 0, 1e-5);
+  }
+}
+
+TEST(VoxelPlanes, WhatIsNoDistanceGivesNone) {
+  const SurfaceSamples samples =
+      samplesAbout(window([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); }), {4, 4, 4});
+  for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kWeight][i], 0);
+}
+
+TEST(VoxelPlanes, DoNotDependOnOtherCells) {
+  const DistanceWindow w = window(wedge);
+  const Coord cell{4, 4, 4};
+  const SurfaceSamples alone = samplesAbout(w, cell);
+  const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, Mat3f::identity());
+  // In the rows of the cell, so that these are too long for half the lanes, and in rows of their own.
+  for (const Coord& other : {Coord{4, 4, 0}, Coord{4, 5, 7}, Coord{0, 0, 0}, Coord{7, 7, 7}}) voxels->expect(other);
+  voxels->expect(cell);
+  SurfaceSamples among;
+  voxels->gather(cell, among);
+  ASSERT_EQ(among.count, alone.count);
+  ASSERT_GT(alone.count, 0);
+  for (int c = 0; c < SurfaceSamples::kColumns; ++c)
+    for (int i = 0; i < alone.count; ++i) EXPECT_EQ(among.column[c][i], alone.column[c][i]) << c << ' ' << i;
+}
+
+TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
+  const DistanceWindow w = window(wedge);
+  const SurfaceSamples best = samplesAbout(w, {4, 4, 4}),
+                       baseline = samplesAbout(w, {4, 4, 4}, Mat3f::identity(), SimdLevel::kBaseline);
+  ASSERT_EQ(best.count, baseline.count);
+  for (int c = 0; c < SurfaceSamples::kColumns; ++c)
+    for (int i = 0; i < best.count; ++i) EXPECT_EQ(best.column[c][i], baseline.column[c][i]);
+}
+
+TEST(SurfaceSides, AnEdgeHasTwoThatMeetOnIt) {
+  SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4}), again = samples;
+  const SurfaceSides sides = findSides(samples, 0);
+  ASSERT_GE(sides.count, 2);
+  EXPECT_LT(std::min(degrees(vecCast<float>(sides.side[0].normal), kLeft),
+                     degrees(vecCast<float>(sides.side[0].normal), kRight)),
+            1);
+  const Vec3d meeting = meetingPoint(sides.all().first(2), {}, 0.01) + Vec3d{4.5, 4.5, 4.5} - kTip,
+              along = unit(cross(kLeft, kRight));
+  EXPECT_LT(length(meeting - along * dot(meeting, along)), 0.01);
+
+  const SurfaceSides baseline = findSides(again, 0, SimdLevel::kBaseline);
+  ASSERT_EQ(sides.count, baseline.count);
+  for (int i = 0; i < sides.count; ++i) {
+    EXPECT_EQ(sides.side[i].center, baseline.side[i].center);
+    EXPECT_EQ(sides.side[i].normal, baseline.side[i].normal);
+    EXPECT_EQ(sides.side[i].weight, baseline.side[i].weight);
+  }
+}
+
+TEST(SurfaceSides, LightOnesAreDropped) {
+  SurfaceSides sides;
+  for (const double weight : {0.3, 2.0, 0.1}) sides.side[sides.count++].weight = weight;
+  sides.dropLight(0.05);
+  EXPECT_EQ(sides.count, 3);
+  sides.dropLight(0.1);
+  ASSERT_EQ(sides.count, 2);
+  EXPECT_EQ(sides.side[0].weight, 0.3);
+  EXPECT_EQ(sides.side[1].weight, 2.0);
+}
+
+TEST(Kinks, SmoothSurfacesHaveNone) {
+  const DistanceWindow w = window(ball);
+  Kinks kinks(w, kTolerance.kink);
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y)
+      for (int z = 0; z < 8; ++z) EXPECT_TRUE(kinks.noneAt({x, y, z}));
+}
+
+TEST(Kinks, CellsAtAnEdgeHaveSome) {
+  const DistanceWindow w = window(wedge);
+  EXPECT_FALSE(Kinks(w, kTolerance.kink).noneAt({4, 4, 4}));
+}
+
+TEST(Kinks, DoNotDependOnTheProcessor) {
+  const DistanceWindow w = window(wedge);
+  Kinks best(w, kTolerance.kink), baseline(w, kTolerance.kink, SimdLevel::kBaseline);
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y)
+      for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAt({x, y, z}), baseline.noneAt({x, y, z}));
+}
+
+}  // namespace
+}  // namespace pdc::detail
