@@ -8,13 +8,13 @@
 #include <string>
 
 #include "commands/check_command.h"
-#include "terminal/huge_heap.h"
 #include "commands/info_command.h"
-#include "terminal/interrupt.h"
 #include "commands/mesh_command.h"
-#include "pdc/error.h"
 #include "commands/render_command.h"
 #include "commands/sweep_command.h"
+#include "pdc/error.h"
+#include "terminal/huge_heap.h"
+#include "terminal/interrupt.h"
 
 namespace {
 

@@ -2,8 +2,9 @@
 # Prints the SHA-256 of what a build of pdc makes of all scenes and grids, with all kinds of options: two builds that
 # print the same lines behave the same. Usage: hash_outputs.sh PROGRAM [FOLDER_OF_DATA]
 set -euo pipefail
+pdc=$(readlink -f "$1")
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
-readonly pdc=$1 data=${2:-../shared/data}
+readonly pdc data=${2:-../shared/data}
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

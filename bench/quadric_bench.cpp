@@ -69,7 +69,7 @@ Candidate loop(const Output& to, std::size_t count, const F& f) {
 /// f(blocks) for the blocks that hold `count` results.
 template <typename Out, typename F>
 Candidate batch(const Output& to, std::size_t count, const F& f) {
-  return {[out = std::span(to.of<Out>(), blockCount(count)), f] {
+  return {[out = std::span(to.of<Out>(), batchCount(count)), f] {
             f(out);
             clobberMemory();
           },

@@ -23,12 +23,12 @@ struct QuadricInputs {
 
   /// \param count a multiple of kLanes.
   explicit QuadricInputs(std::size_t count)
-      : planes(blockCount(count)),
-        triangles(blockCount(count)),
-        Sigmas(blockCount(count)),
-        Sigma_n(blockCount(count)),
-        Sigma_q(blockCount(count)),
-        systems(blockCount(count)) {
+      : planes(batchCount(count)),
+        triangles(batchCount(count)),
+        Sigmas(batchCount(count)),
+        Sigma_n(batchCount(count)),
+        Sigma_q(batchCount(count)),
+        systems(batchCount(count)) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<T> uniform(-1, 1);
     const auto point = [&] { return Vec3<T>{uniform(engine), uniform(engine), uniform(engine)}; };

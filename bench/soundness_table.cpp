@@ -31,7 +31,7 @@ constexpr double kSigmas[] = {0.0, 0.01, 0.1, 1.0, std::numeric_limits<double>::
 
 std::size_t triangleCount(const pdc::Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
 
-/// Offending pairs per thousand triangles; one digit more than it takes to tell none from few.
+/// Intersecting pairs per thousand triangles; one digit more than it takes to tell none from few.
 std::string hits(const pdc::Mesh& mesh) {
   const std::size_t pairs = pdc::selfIntersections(mesh).pairs.size();
   return pairs == 0

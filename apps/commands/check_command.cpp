@@ -5,16 +5,16 @@
 #include <array>
 #include <string>
 
-#include "terminal/busy_sign.h"
-#include "terminal/facts_text.h"
 #include "commands/info_facts.h"
-#include "terminal/interrupt.h"
 #include "commands/json_report.h"
-#include "terminal/numbers.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
+#include "terminal/busy_sign.h"
+#include "terminal/facts_text.h"
+#include "terminal/interrupt.h"
+#include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
 
 namespace pdc {

@@ -1,10 +1,10 @@
 #include "commands/info_command.h"
 
+#include "commands/info_facts.h"
+#include "commands/json_report.h"
 #include "terminal/busy_sign.h"
 #include "terminal/facts_text.h"
-#include "commands/info_facts.h"
 #include "terminal/interrupt.h"
-#include "commands/json_report.h"
 
 namespace pdc {
 void addInfoOptions(CLI::App& command, InfoRequest& request) {

@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <limits>
 
-#include "terminal/busy_sign.h"
-#include "terminal/interrupt.h"
 #include "commands/json_report.h"
 #include "commands/mesh_input.h"
 #include "pdc/io/mesh/mesh_writer.h"
+#include "terminal/busy_sign.h"
+#include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
 
 namespace pdc {

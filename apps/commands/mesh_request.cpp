@@ -7,8 +7,8 @@
 
 #include "commands/input_kind.h"
 #include "io/mesh/mesh_format.h"
-#include "terminal/numbers.h"
 #include "pdc/error.h"
+#include "terminal/numbers.h"
 
 namespace pdc {
 namespace {

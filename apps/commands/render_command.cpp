@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "terminal/busy_sign.h"
-#include "terminal/interrupt.h"
-#include "terminal/numbers.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/png_writer.h"
 #include "pdc/mesh/distance.h"
+#include "terminal/busy_sign.h"
+#include "terminal/interrupt.h"
+#include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
 #include "terminal/view_option.h"
 

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "terminal/busy_sign.h"
 #include "commands/input_kind.h"
-#include "terminal/interrupt.h"
 #include "commands/mesh_input.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
@@ -16,6 +14,8 @@
 #include "pdc/sample/crease_points.h"
 #include "pdc/study/sweep.h"
 #include "pdc/study/sweep_writer.h"
+#include "terminal/busy_sign.h"
+#include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
 
 namespace pdc {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "terminal/numbers.h"
 #include "pdc/render/camera.h"
+#include "terminal/numbers.h"
 
 namespace pdc {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "extract/certify/certify.h"
 #include "extract/faces/fill_mesh.h"
-#include "extract/topology/block_topology.h"
+#include "extract/topology/surface.h"
 #include "extract/vertex_confidence.h"
 #include "parallel/with_threads.h"
 
@@ -42,14 +42,20 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
     throw std::invalid_argument("contour: the source's blocks are not sorted");
   const detail::Topology topology = detail::buildTopology(blocks, monitor);
   detail::checkVertexCount(topology.vertexCount);
+  const detail::Surface surface{source, blocks, topology};
   Mesh mesh;
   const bool promised = options.placement != Placement::kFree;
-  detail::Doubts doubts;
-  const detail::VertexCounts counts =
-      fillMesh(source, blocks, topology, options, mesh, promised ? &doubts : nullptr, monitor);
+  detail::Suspects suspects;
+  const detail::SigmaNormal sigma = options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal)
+                                                        : detail::SigmaNormal::fromData(source, blocks, monitor);
+  const detail::FillMeshOptions fill{
+      .sigma = sigma,
+      .halfSize = options.placement == Placement::kCell ? detail::kCellHalfSize : detail::kFreeHalfSize,
+      .normals = options.normals};
+  const detail::VertexCounts counts = fillMesh(surface, fill, mesh, promised ? &suspects : nullptr, monitor);
   detail::CertifyCounts certified;
-  if (promised) certified = certify(source, blocks, topology, doubts, mesh, monitor);
-  if (options.confidence || options.ranks) rateVertices(source, blocks, topology, options, mesh, monitor);
+  if (promised) certified = certify(surface, suspects, mesh, monitor);
+  if (options.confidence || options.ranks) addVertexConfidence(surface, options, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),
@@ -63,7 +69,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .drawnIn = certified.drawnIn,
                .forcedDiagonals = certified.forcedDiagonals,
                .fans = certified.fans,
-               .normalNoise = counts.normalNoise,
+               .normalNoise = sigma.noise(),
                .uncertified = certified.uncertified};
   return mesh;
 }

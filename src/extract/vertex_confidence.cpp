@@ -190,8 +190,8 @@ std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
 
 }  // namespace
 
-void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                  const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
+void addVertexConfidence(const Surface& surface, const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
+  const auto& [source, blocks, topology] = surface;
   Buffer<Rating> ratings(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
       [&, noise = SigmaNormal::fromData(source, blocks, monitor).noise()] {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "extract/topology/block_topology.h"
+#include "extract/topology/surface.h"
 #include "pdc/extract/contour.h"
 
 namespace pdc::detail {
@@ -8,7 +8,6 @@ namespace pdc::detail {
 /// Fills the mesh's confidence and ranks as far as `options` asks for them. Samples the source a second time, so that
 /// solving stays as quick as it is. \param mesh as solved and certified; vertices beyond the topology's are those that
 /// certifying added on lattice edges, and are rated like their neighbours.
-void rateVertices(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                  const ContourOptions& options, Mesh& mesh, const Monitor& monitor);
+void addVertexConfidence(const Surface& surface, const ContourOptions& options, Mesh& mesh, const Monitor& monitor);
 
 }  // namespace pdc::detail

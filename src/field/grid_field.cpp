@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "field/arguments.h"
-#include "field/interval_arithmetic.h"
 #include "field/block_ranges.h"
 #include "field/image_box.h"
+#include "field/interval_arithmetic.h"
 #include "field/trilinear_cell.h"
 #include "pdc/error.h"
 #include "pdc/math/mat3.h"

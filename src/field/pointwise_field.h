@@ -55,7 +55,7 @@ class PointwiseField final : public Field {
   /// Calls f(i) for i = 0 … size − 1, sixteen at a time as far as there are as many.
   template <typename F>
   void forEachPoint(std::size_t size, const F& f) const {
-    forEachBlock(mLevel, size / kLanes, [f](std::size_t block) {
+    forEachBatch(mLevel, size / kLanes, [f](std::size_t block) {
       const std::size_t first = block * kLanes;
       forEachLane([&](int lane) { f(first + static_cast<std::size_t>(lane)); });
     });

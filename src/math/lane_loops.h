@@ -72,7 +72,7 @@ template <typename F>
 
 /// Calls f(i) for i = 0 … count − 1 with the instructions of `level`, or of the best one there is.
 template <typename F>
-void forEachBlock(SimdLevel level, std::size_t count, const F& f) {
+void forEachBatch(SimdLevel level, std::size_t count, const F& f) {
 #if defined(__x86_64__)
   switch (std::min(level, bestSimdLevel())) {
     case SimdLevel::kAvx512:
@@ -86,6 +86,12 @@ void forEachBlock(SimdLevel level, std::size_t count, const F& f) {
   static_cast<void>(level);
 #endif
   loopBaseline(count, f);
+}
+
+/// Calls f() once, compiled for `level`, or for the best one there is.
+template <typename F>
+void withSimd(SimdLevel level, const F& f) {
+  forEachBatch(level, 1, [&f](std::size_t) { f(); });
 }
 
 }  // namespace pdc::detail

@@ -19,7 +19,7 @@ void expectLength(std::size_t length, std::size_t expected) {
 /// out[i] = make(i, lane), in all lanes of all blocks.
 template <typename Out, typename F>
 void build(SimdLevel level, std::span<Out> out, const F& make) {
-  detail::forEachBlock(level, out.size(), [out, &make](std::size_t i) {
+  detail::forEachBatch(level, out.size(), [out, &make](std::size_t i) {
     Out& block = out[i];
     detail::forEachLane([&](int lane) { block.set(lane, make(i, lane)); });
   });
@@ -59,7 +59,7 @@ void sumBlocks(SimdLevel level, std::span<const QuadricLanes<T>> quadrics, Quadr
     addQuadrics(std::span<const QuadricLanes<T>>(&second, 1), std::span<QuadricLanes<T>>(&sum, 1), level);
     return;
   }
-  detail::forEachBlock(level, quadrics.size(), [quadrics, &sum](std::size_t i) {
+  detail::forEachBatch(level, quadrics.size(), [quadrics, &sum](std::size_t i) {
     const QuadricLanes<T>& block = quadrics[i];
     detail::forEachLane([&](int lane) { sum.set(lane, sum.get(lane) + block.get(lane)); });
   });
@@ -175,7 +175,7 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
                SimdLevel level) {
   using T = typename Lanes::Scalar;
   expectLength(systems.size(), solutions.size());
-  detail::forEachBlock(level, systems.size(), [=](std::size_t i) {
+  detail::forEachBatch(level, systems.size(), [=](std::size_t i) {
     const Lanes& block = systems[i];
     SolutionLanes<T>& solution = solutions[i];
     prefetchAhead(systems, i);

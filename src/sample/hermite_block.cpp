@@ -20,7 +20,7 @@ constexpr auto kPlanePoint = [] {
 }  // namespace
 
 EdgeIndex::EdgeIndex(const BlockSigns& signs) {
-  detail::forEachBlock(bestSimdLevel(), 1, [&](std::size_t) { fill(signs); });
+  detail::withSimd(bestSimdLevel(), [&] { fill(signs); });
 }
 
 void EdgeIndex::fill(const BlockSigns& signs) {

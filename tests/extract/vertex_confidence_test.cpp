@@ -28,7 +28,7 @@ FieldSource turnedBox() {
                      {.box = {{-1, -1, -1}, {1, 1, 1}}, .voxelSize = 1.0 / 16});
 }
 
-class RateVertices : public testing::Test {
+class VertexConfidence : public testing::Test {
  protected:
   static void SetUpTestSuite() { openvdb::initialize(); }
 };
@@ -46,7 +46,7 @@ int planesThrough(const Vec3f& p) {
   return planes;
 }
 
-TEST_F(RateVertices, RanksOfABoxAreItsFacesEdgesAndCorners) {
+TEST_F(VertexConfidence, RanksOfABoxAreItsFacesEdgesAndCorners) {
   const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .ranks = true});
   ASSERT_EQ(mesh.ranks.size(), mesh.positions.size());
   EXPECT_TRUE(mesh.confidence.empty());
@@ -62,7 +62,7 @@ TEST_F(RateVertices, RanksOfABoxAreItsFacesEdgesAndCorners) {
   EXPECT_GE(ranks[1], 6 * 10 * 10);
 }
 
-TEST_F(RateVertices, ExactPlanesHaveFullConfidence) {
+TEST_F(VertexConfidence, ExactPlanesHaveFullConfidence) {
   const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .confidence = true});
   EXPECT_TRUE(mesh.ranks.empty());
   ASSERT_EQ(mesh.confidence.size(), mesh.positions.size());
@@ -72,7 +72,7 @@ TEST_F(RateVertices, ExactPlanesHaveFullConfidence) {
     }
 }
 
-TEST_F(RateVertices, RanksOfALevelSetAreThoseOfItsCreases) {
+TEST_F(VertexConfidence, RanksOfALevelSetAreThoseOfItsCreases) {
   const auto shapes = eval::makeShapes(kSize);
   const auto hexagon =
       std::find_if(shapes.begin(), shapes.end(), [](const eval::Shape& s) { return s.name == "hexagon"; });
@@ -91,7 +91,7 @@ TEST_F(RateVertices, RanksOfALevelSetAreThoseOfItsCreases) {
   EXPECT_GE(std::count(mesh.ranks.begin(), mesh.ranks.end(), 3), 8);
 }
 
-TEST_F(RateVertices, AskingChangesNothingElseAndThreadsDoNotMatter) {
+TEST_F(VertexConfidence, AskingChangesNothingElseAndThreadsDoNotMatter) {
   const auto shapes = eval::makeShapes(kSize);
   const eval::GridInput input = eval::makeGrid("exact", shapes[2], eval::randomPose(kPose, kSize), 0.1, 1);
   const GridSource source(input.grid);
@@ -114,7 +114,7 @@ TEST_F(RateVertices, AskingChangesNothingElseAndThreadsDoNotMatter) {
 
 /// Over the vertices of solids that no constant was chosen with. Planes from distances share their samples with those
 /// of neighbours: their errors are alike, so that less can be told of them.
-TEST_F(RateVertices, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
+TEST_F(VertexConfidence, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
   for (const auto& [mode, least] : {std::pair{HermiteMode::kGradient, 0.55}, {HermiteMode::kDistance, 0.5}}) {
     std::vector<double> doubt, error;
     for (const eval::Shape& shape : eval::makeShapes(kSize)) {

@@ -26,7 +26,7 @@ const Box kRegion{{-4, -4, -4}, {4, 4, 4}};
 const FieldPtr kBall = sphere({0.4, 0.1, -0.3}, 1.5);
 const FieldPtr kBrick = box({-0.5, 0.3, 0.2}, {1.2, 0.9, 1.6});
 const FieldPtr kCentered = roundedBox({0, 0, 0}, {1.2, 0.9, 0.5}, 0.2);
-const FieldPtr kRing = torus({0.2, 0, 0.1}, {1, 1, 2}, 1.6, 0.4);
+const FieldPtr kCellsAboutEdge = torus({0.2, 0, 0.1}, {1, 1, 2}, 1.6, 0.4);
 
 /// Turned again and again, with something between the turns that keeps them from merging.
 FieldPtr nestedRotations(FieldPtr field, int depth) {
@@ -36,13 +36,13 @@ FieldPtr nestedRotations(FieldPtr field, int depth) {
 }
 
 std::vector<FieldCase> operators() {
-  return {{"unite", unite({kBall, kBrick, kRing}), true},
+  return {{"unite", unite({kBall, kBrick, kCellsAboutEdge}), true},
           {"uniteOne", unite({kBall}), true},
-          {"intersect", intersect({kBall, kBrick, complement(kRing)}), true},
-          {"subtract", subtract({kBall, kBrick, kRing}), true},
-          {"smoothUnite", smoothUnite({kBall, kBrick, kRing}, 0.4)},
-          {"smoothIntersect", smoothIntersect({kBall, kBrick, complement(kRing)}, 0.4)},
-          {"smoothSubtract", smoothSubtract({kBall, kBrick, kRing}, 0.4)},
+          {"intersect", intersect({kBall, kBrick, complement(kCellsAboutEdge)}), true},
+          {"subtract", subtract({kBall, kBrick, kCellsAboutEdge}), true},
+          {"smoothUnite", smoothUnite({kBall, kBrick, kCellsAboutEdge}, 0.4)},
+          {"smoothIntersect", smoothIntersect({kBall, kBrick, complement(kCellsAboutEdge)}, 0.4)},
+          {"smoothSubtract", smoothSubtract({kBall, kBrick, kCellsAboutEdge}, 0.4)},
           {"complement", complement(kBrick), true},
           {"offset", offset(kBrick, 0.3), true},
           {"inset", offset(kBall, -0.3), true},
@@ -52,7 +52,8 @@ std::vector<FieldCase> operators() {
           {"rotateRightAngle", rotate(kBrick, {0, 1, 0}, 90), true},
           {"scale", scale(kBrick, 1.7), true},
           {"scaleUnevenly", scale(kBrick, Vec3d{1.7, 0.6, 0.9})},
-          {"placed", scale(rotate(translate(rotate(kRing, {1, 0, 3}, 50), {1, -0.5, 0}), {0, 1, 1}, -20), 0.8), true},
+          {"placed",
+           scale(rotate(translate(rotate(kCellsAboutEdge, {1, 0, 3}, 50), {1, -0.5, 0}), {0, 1, 1}, -20), 0.8), true},
           {"sheared", rotate(scale(rotate(kBrick, {1, 2, 3}, 40), Vec3d{1.5, 1, 0.5}), {1, 0, 0}, 30)},
           {"nestedRotations", nestedRotations(kBrick, 8), true},
           {"mirror", mirror(translate(kBall, {1.5, 0, 0}), 0), true},
@@ -60,9 +61,10 @@ std::vector<FieldCase> operators() {
           {"repeatOneAxis", repeat(kCentered, {0, 0, 1.3}, {0, 0, 0})},
           {"repeatCounted", repeat(kCentered, {3, 2.2, 0}, {1, 2, 0}), true},
           {"tree",
-           smoothUnite({rotate(subtract({kBall, offset(kBrick, -0.2)}), {1, 1, 1}, 33), shell(mirror(kRing, 1), 0.3),
-                        scale(simplexNoise({.seed = 3, .octaves = 2, .amplitude = 0.05}), 0.5)},
-                       0.2),
+           smoothUnite(
+               {rotate(subtract({kBall, offset(kBrick, -0.2)}), {1, 1, 1}, 33), shell(mirror(kCellsAboutEdge, 1), 0.3),
+                scale(simplexNoise({.seed = 3, .octaves = 2, .amplitude = 0.05}), 0.5)},
+               0.2),
            false, 2}};
 }
 
@@ -90,9 +92,10 @@ TEST(Operators, ObeyTheAlgebraOfSets) {
   expectEqual(complement(unite({kBall, kBrick})), intersect({complement(kBall), complement(kBrick)}));
   expectEqual(complement(smoothUnite({kBall, kBrick}, 0.5)),
               smoothIntersect({complement(kBall), complement(kBrick)}, 0.5));
-  expectEqual(subtract({kBall, kBrick, kRing}), intersect({kBall, complement(kBrick), complement(kRing)}));
+  expectEqual(subtract({kBall, kBrick, kCellsAboutEdge}),
+              intersect({kBall, complement(kBrick), complement(kCellsAboutEdge)}));
   expectEqual(smoothSubtract({kBall, kBrick}, 0.5), smoothIntersect({kBall, complement(kBrick)}, 0.5));
-  expectEqual(unite({kBall, kBrick, kRing}), unite({kRing, kBall, kBrick}));
+  expectEqual(unite({kBall, kBrick, kCellsAboutEdge}), unite({kCellsAboutEdge, kBall, kBrick}));
   expectEqual(unite({kBall, kBall}), kBall);
   expectEqual(offset(offset(kBall, 0.25), -0.25), kBall, 1e-15);
 }

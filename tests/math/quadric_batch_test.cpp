@@ -204,10 +204,10 @@ TEST(QuadricBatch, RejectsSpansOfDifferentLength) {
 }
 
 TEST(QuadricLanes, HoldCountsInWholeBlocks) {
-  EXPECT_EQ(blockCount(0), 0U);
-  EXPECT_EQ(blockCount(1), 1U);
-  EXPECT_EQ(blockCount(16), 1U);
-  EXPECT_EQ(blockCount(17), 2U);
+  EXPECT_EQ(batchCount(0), 0U);
+  EXPECT_EQ(batchCount(1), 1U);
+  EXPECT_EQ(batchCount(16), 1U);
+  EXPECT_EQ(batchCount(17), 2U);
 }
 
 }  // namespace

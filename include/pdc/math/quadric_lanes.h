@@ -15,7 +15,7 @@ namespace pdc {
 inline constexpr int kLanes = 16;
 
 /// \returns the number of blocks that hold `count` values.
-constexpr std::size_t blockCount(std::size_t count) { return (count + kLanes - 1) / kLanes; }
+constexpr std::size_t batchCount(std::size_t count) { return (count + kLanes - 1) / kLanes; }
 
 template <typename T>
 struct alignas(64) Vec3Lanes {

@@ -38,7 +38,7 @@ class HermiteSource {
   [[nodiscard]] virtual bool exactNormals() const { return false; }
 
   /// A hint that fillHermite() will soon be called for `block`, so that its data may be fetched meanwhile.
-  virtual void expect(const Coord& block) const { static_cast<void>(block); }
+  virtual void prefetch(const Coord& block) const { static_cast<void>(block); }
   /// Fills what the source knows of a block's patches beyond `hermite`, which it has filled before. Sources that know
   /// nothing more leave `planes`, which comes empty, as it is. Allocates only while `planes` has not grown to its size.
   virtual void fillFeaturePlanes(const Coord& /*block*/, const BlockSigns& /*signs*/, const EdgeIndex& /*edges*/,

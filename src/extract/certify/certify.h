@@ -1,6 +1,6 @@
 #pragma once
 
-#include "extract/topology/block_topology.h"
+#include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
 
 namespace pdc::detail {
@@ -9,18 +9,17 @@ struct CertifyCounts {
   std::size_t shortened = 0, drawnIn = 0, forcedDiagonals = 0, fans = 0, uncertified = 0, addedBoundaryEdges = 0;
 };
 
-/// Moves loose vertices, turns diagonals and replaces quads by fans until no triangle of the mesh meets another where
+/// Moves suspect vertices, turns diagonals and replaces quads by fans until no triangle of the mesh meets another where
 /// it should not or faces backwards along its lattice edge; see docs/soundness.md.
 ///
-/// Only faces that hold a loose vertex, or are doubtful, are tested, against all others near them, in the mesh's own
-/// single precision by exact predicates. Quads are turned, vertices on creases moved to where their faces offend
-/// less (see CreaseMoves). Then every loose vertex of an offending pair of triangles is drawn back towards its safe
-/// place, step by step. Where all vertices are safe, quads become fans, and cells with several patches or ambiguous
-/// faces are split (see Fans), which cannot intersect. Each round is decided from the state before it, so the result
-/// does not depend on threads.
+/// Only faces that hold a suspect vertex, or may face backwards, are tested, against all others near them, in the
+/// mesh's own single precision by exact predicates. Quads are turned, vertices on creases moved to where their faces
+/// have fewer conflicts (see CreaseMoves). Then every suspect vertex of a conflicting pair of triangles is drawn back
+/// towards its safe place, step by step. Where all vertices are safe, quads become fans, and cells with several patches
+/// or ambiguous faces are split (see Fans), which cannot intersect. Each round is decided from the state before it, so
+/// the result does not depend on threads.
 ///
 /// \param mesh as fillMesh made it, in quads only; may come back with triangles beside them.
-CertifyCounts certify(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                      const Doubts& doubts, Mesh& mesh, const Monitor& monitor);
+CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& mesh, const Monitor& monitor);
 
 }  // namespace pdc::detail

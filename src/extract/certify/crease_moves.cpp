@@ -25,7 +25,7 @@ constexpr std::array<float, 8> kForward{0.99F, 0.97F, 0.95F, 0.92F, 0.88F, 0.8F,
 /// How often a vertex moves.
 constexpr std::uint8_t kMostMoves = 3;
 /// Where faces meet more others than this, no single move helps.
-constexpr std::size_t kMostOffences = 12;
+constexpr std::size_t kMostConflicts = 12;
 
 Vec3f scaledTo(const Vec3d& v, double wanted) {
   const double l = length(v);
@@ -33,7 +33,7 @@ Vec3f scaledTo(const Vec3d& v, double wanted) {
 }
 
 /// A vertex's place, in lattice units from the centre of its cell, and others along its crease.
-std::vector<Vec3f> placesAlong(const LooseVertex& v, const Mat3d& M) {
+std::vector<Vec3f> placesAlong(const SuspectVertex& v, const Mat3d& M) {
   std::vector<Vec3f> places{v.place};
   const Mat3d toLattice = inverse(M);
   const auto& n = v.creaseNormals;
@@ -47,7 +47,7 @@ std::vector<Vec3f> placesAlong(const LooseVertex& v, const Mat3d& M) {
 }
 
 /// Places to try for a vertex, the dearest last; its own first.
-std::vector<Vec3f> placesToTry(const LooseVertex& v, const Mat3d& M) {
+std::vector<Vec3f> placesToTry(const SuspectVertex& v, const Mat3d& M) {
   std::vector<Vec3f> places = placesAlong(v, M);
   const Vec3d way = vecCast<double>(v.safe - v.place);
   for (const float step : kWithin)
@@ -63,40 +63,40 @@ std::vector<Vec3f> placesToTry(const LooseVertex& v, const Mat3d& M) {
 
 /// The best place found for a vertex.
 struct Found {
-  std::size_t offences = 0;  ///< That its faces have there.
-  std::size_t tried = 0;     ///< How many had been tried before; 0: it is where the vertex is.
+  std::size_t conflicts = 0;  ///< That its faces have there.
+  std::size_t tried = 0;      ///< How many had been tried before; 0: it is where the vertex is.
   Vec3f place{};
 };
 
-Found findPlace(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex, std::size_t failedWith) {
+Found findPlace(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex, std::size_t failedWith) {
   const std::vector<Vec3f> places = placesToTry(vertex, tests.map().jacobian({}));
   std::vector<Vec3f> world(places.size());
   std::transform(places.begin(), places.end(), world.begin(),
                  [&](const Vec3f& p) { return tests.worldPosition(vertex, p); });
   VertexTrial trial(near, tests, vertex, world);
-  Found best{trial.countOffences(0, kMostOffences + 1)};
-  if (best.offences == failedWith || best.offences > kMostOffences) return best;
-  for (std::size_t i = 1; i < places.size() && best.offences > 0; ++i) {
+  Found best{trial.countConflicts(0, kMostConflicts + 1)};
+  if (best.conflicts == failedWith || best.conflicts > kMostConflicts) return best;
+  for (std::size_t i = 1; i < places.size() && best.conflicts > 0; ++i) {
     if (!trial.finds(i)) continue;
-    const std::size_t offences = trial.countOffences(i, best.offences);
-    if (offences < best.offences) best = {offences, i, places[i]};
+    const std::size_t conflicts = trial.countConflicts(i, best.conflicts);
+    if (conflicts < best.conflicts) best = {conflicts, i, places[i]};
   }
   return best;
 }
 
 /// The largest distance of a place from the planes that meet in a vertex's crease, in world units.
-double distanceFromPlanes(const LooseVertex& v, const Mat3d& M, const Vec3f& onCrease, const Vec3f& place) {
+double distanceFromPlanes(const SuspectVertex& v, const Mat3d& M, const Vec3f& onCrease, const Vec3f& place) {
   const Vec3d offset = M * vecCast<double>(place - onCrease);
   double most = 0;
   for (const Vec3f& n : v.creaseNormals) most = std::max(most, std::abs(dot(vecCast<double>(n), offset)));
   return most;
 }
 
-/// The place nearest to the planes of the vertex's crease where its faces have no offence; its own if there is none.
-Vec3f findBetterPlace(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex,
+/// The place nearest to the planes of the vertex's crease where its faces have no conflict; its own if there is none.
+Vec3f findBetterPlace(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
                       const Vec3f& wantedPlace) {
   const Mat3d M = tests.map().jacobian({});
-  LooseVertex wanted = vertex;
+  SuspectVertex wanted = vertex;
   wanted.place = wantedPlace;
   std::vector<Vec3f> all = placesToTry(wanted, M);
   for (const Vec3f& p : placesAlong(wanted, M))
@@ -111,12 +111,12 @@ Vec3f findBetterPlace(const NearFaces& near, const FaceTests& tests, const Loose
   world.push_back(tests.worldPosition(vertex, vertex.place));
   VertexTrial trial(near, tests, vertex, world);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (trial.finds(i) && trial.countOffences(i, 1) == 0) return places[i].second;
+    if (trial.finds(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
   return vertex.place;
 }
 
 /// Whether the crease turns by more than 41°. Being drawn off a flatter one costs little.
-bool isSharp(const LooseVertex& v) {
+bool isSharp(const SuspectVertex& v) {
   const auto& n = v.creaseNormals;
   for (std::size_t i = 1; i < n.size() && n[i] != Vec3f{}; ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -126,15 +126,15 @@ bool isSharp(const LooseVertex& v) {
 
 }  // namespace
 
-std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vector<Offence>& offences,
+std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vector<Conflict>& conflicts,
                                           const std::function<std::ptrdiff_t(std::uint32_t)>& movable) {
   if (!mTests.map().affine()) return {};
-  // By offence, the vertices that may move, and all of them.
+  // By conflict, the vertices that may move, and all of them.
   std::vector<std::pair<std::size_t, std::size_t>> candidates;
-  for (std::size_t o = 0; o < offences.size(); ++o)
-    forEachCorner(offences[o], [&](std::uint32_t v) {
+  for (std::size_t o = 0; o < conflicts.size(); ++o)
+    forEachCorner(conflicts[o], [&](std::uint32_t v) {
       const std::ptrdiff_t i = movable(v);
-      if (i >= 0 && mMoves[i] < kMostMoves && isSharp(mLoose[i]))
+      if (i >= 0 && mMoves[i] < kMostMoves && isSharp(mSuspects[i]))
         candidates.emplace_back(o, static_cast<std::size_t>(i));
     });
   std::vector<std::size_t> vertices;
@@ -143,14 +143,14 @@ std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vect
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::vector<Found> found(vertices.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
-    found[k] = findPlace(near, mTests, mLoose[vertices[k]], mFailedWith[vertices[k]]);
+    found[k] = findPlace(near, mTests, mSuspects[vertices[k]], mFailedWith[vertices[k]]);
   });
 
-  // Of each offence only the best of its vertices moves.
+  // Of each conflict only the best of its vertices moves.
   const auto rank = [&](std::size_t k) {
-    return std::tuple(found[k].tried == 0, found[k].offences, found[k].tried, k);
+    return std::tuple(found[k].tried == 0, found[k].conflicts, found[k].tried, k);
   };
-  std::vector<std::size_t> best(offences.size(), vertices.size());
+  std::vector<std::size_t> best(conflicts.size(), vertices.size());
   for (auto& [o, vertex] : candidates) {
     vertex = static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
     if (best[o] == vertices.size() || rank(vertex) < rank(best[o])) best[o] = vertex;
@@ -160,7 +160,7 @@ std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vect
   std::vector<CreaseMove> moves;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (found[k].tried == 0) {
-      mFailedWith[vertices[k]] = found[k].offences;
+      mFailedWith[vertices[k]] = found[k].conflicts;
     } else if (beaten[k] == 0) {
       moves.push_back({vertices[k], found[k].place});
       ++mMoves[vertices[k]];
@@ -173,7 +173,7 @@ std::vector<CreaseMove> CreaseMoves::findBetter(const NearFaces& near, const std
                                                 const std::vector<Vec3f>& wanted) const {
   if (!mTests.map().affine()) return {};
   return gather<CreaseMove>(vertices.size(), [&](std::size_t i, std::vector<CreaseMove>& out) {
-    const LooseVertex& vertex = mLoose[vertices[i]];
+    const SuspectVertex& vertex = mSuspects[vertices[i]];
     if (!isSharp(vertex)) return;
     const Vec3f place = findBetterPlace(near, mTests, vertex, wanted[vertices[i]]);
     if (place != vertex.place) out.push_back({vertices[i], place});

@@ -8,17 +8,17 @@ namespace pdc::detail {
 namespace {
 
 /// The ends of the edge in lattice space, the one inside first.
-std::pair<Vec3d, Vec3d> insideToOutside(const QuadRings& rings, const EdgeRef& e) {
-  Vec3d from = rings.lowEnd(e), to = from;
+std::pair<Vec3d, Vec3d> insideToOutside(const EdgeCells& edgeCells, const EdgeRef& e) {
+  Vec3d from = edgeCells.lowEnd(e), to = from;
   to[e.axis()] += 1;
-  if (!rings.lowInside(e)) std::swap(from, to);
+  if (!edgeCells.lowInside(e)) std::swap(from, to);
   return {from, to};
 }
 
 }  // namespace
 
 bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
-  const auto [from, to] = insideToOutside(mRings, e);
+  const auto [from, to] = insideToOutside(mEdgeCells, e);
   const Vec3d behind = mMap.position(from), before = mMap.position(to);
   const auto p = [&](int i) { return vecCast<double>(mMesh.positions[quad[i]]); };
   const auto crossed = [&](int a, int b, int c) {
@@ -28,7 +28,7 @@ bool FaceTests::passes(const EdgeRef& e, const Quad& quad) const {
 }
 
 Vec3d FaceTests::forward(const EdgeRef& e) const {
-  const auto [from, to] = insideToOutside(mRings, e);
+  const auto [from, to] = insideToOutside(mEdgeCells, e);
   return mMap.affine() ? mMap.jacobian({}) * (to - from) : mMap.position(to) - mMap.position(from);
 }
 
@@ -37,21 +37,21 @@ bool FaceTests::facesForward(const Vec3d& forward, const Triangle& vertices, con
   const Vec3d u = vecCast<double>(t[1]) - p, v = vecCast<double>(t[2]) - p, n = cross(u, v);
   // Differences of floats are exact or nearly so; what is left is far below this share.
   constexpr double kRounding = 1e-14;
-  const double doubt = kRounding * length(u) * length(v);
-  if (dot(n, forward) > doubt * length(forward)) return true;
-  if (!(length(n) > doubt)) return false;
+  const double errorBound = kRounding * length(u) * length(v);
+  if (dot(n, forward) > errorBound * length(forward)) return true;
+  if (!(length(n) > errorBound)) return false;
   // The cosine from which a triangle belongs to a plane.
   constexpr double kAlike = 0.5;
   for (const std::uint32_t vertex : vertices)
-    if (const LooseVertex* found = loose(vertex))
+    if (const SuspectVertex* found = suspect(vertex))
       for (const Vec3f& normal : found->creaseNormals)
         if (dot(n, vecCast<double>(normal)) > kAlike * length(n)) return true;
   return false;
 }
 
-Vec3f FaceTests::worldPosition(const LooseVertex& v, const Vec3f& place) const {
+Vec3f FaceTests::worldPosition(const SuspectVertex& v, const Vec3f& place) const {
   const CellRef c = cellOf(v);
-  const Coord& b = mRings.blockCoord(v.block);
+  const Coord& b = mEdgeCells.blockCoord(v.block);
   const Vec3d center{kBlockSize * double(b[0]) + c.x + 0.5, kBlockSize * double(b[1]) + c.y + 0.5,
                      kBlockSize * double(b[2]) + c.z + 0.5};
   return vecCast<float>(mMap.position(center + vecCast<double>(place)));

@@ -11,9 +11,9 @@ namespace pdc::detail {
 /// What is asked of single faces, decided exactly on the mesh's coordinates.
 class FaceTests {
  public:
-  FaceTests(const LatticeMap& map, const QuadRings& rings, const Fans& fans, const std::vector<LooseVertex>& loose,
-            const Mesh& mesh)
-      : mMap(map), mRings(rings), mFans(fans), mLoose(loose), mLooseIndex(loose), mMesh(mesh) {}
+  FaceTests(const LatticeMap& map, const EdgeCells& edgeCells, const Fans& fans,
+            const std::vector<SuspectVertex>& suspect, const Mesh& mesh)
+      : mMap(map), mEdgeCells(edgeCells), mFans(fans), mSuspects(suspect), mSuspectIndex(suspect), mMesh(mesh) {}
 
   /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
   [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
@@ -36,26 +36,26 @@ class FaceTests {
     return p;
   }
   /// \param place in lattice units from the centre of the vertex's cell.
-  [[nodiscard]] Vec3f worldPosition(const LooseVertex& v, const Vec3f& place) const;
-  /// The loose vertex of that number, or null.
-  [[nodiscard]] const LooseVertex* loose(std::uint32_t vertex) const {
-    const std::ptrdiff_t i = mLooseIndex.find(vertex);
-    return i < 0 ? nullptr : &mLoose[static_cast<std::size_t>(i)];
+  [[nodiscard]] Vec3f worldPosition(const SuspectVertex& v, const Vec3f& place) const;
+  /// The suspect vertex of that number, or null.
+  [[nodiscard]] const SuspectVertex* suspect(std::uint32_t vertex) const {
+    const std::ptrdiff_t i = mSuspectIndex.find(vertex);
+    return i < 0 ? nullptr : &mSuspects[static_cast<std::size_t>(i)];
   }
   /// The quad that a face is, or null if it is a fan.
   [[nodiscard]] const Quad* quad(std::uint64_t face) const { return mFans.has(face) ? nullptr : &mMesh.quads[face]; }
   /// Replaces `out` by the triangles of face number `face`, the quad or fan of the edge.
   void triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const;
 
-  [[nodiscard]] const QuadRings& rings() const { return mRings; }
+  [[nodiscard]] const EdgeCells& edgeCells() const { return mEdgeCells; }
   [[nodiscard]] const LatticeMap& map() const { return mMap; }
 
  private:
   const LatticeMap& mMap;
-  const QuadRings& mRings;
+  const EdgeCells& mEdgeCells;
   const Fans& mFans;
-  const std::vector<LooseVertex>& mLoose;
-  LooseIndex mLooseIndex;
+  const std::vector<SuspectVertex>& mSuspects;
+  SuspectIndex mSuspectIndex;
   const Mesh& mMesh;
 };
 

@@ -21,8 +21,8 @@ struct Fans::Crossings {
   HermiteBlock hermite;
 };
 
-Fans::Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const QuadRings& rings, Mesh& mesh)
-    : mSource(source), mBlocks(blocks), mRings(rings), mMesh(mesh), mIsFan((mesh.quads.size() + 63) / 64) {}
+Fans::Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const EdgeCells& edgeCells, Mesh& mesh)
+    : mSource(source), mBlocks(blocks), mEdgeCells(edgeCells), mMesh(mesh), mIsFan((mesh.quads.size() + 63) / 64) {}
 
 Fans::~Fans() = default;
 
@@ -43,7 +43,7 @@ std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
   mMesh.positions.push_back(vecCast<float>(mSource.map().position(position)));
   if (!mMesh.normals.empty()) {
     Vec3d sum{};
-    for (const std::uint32_t v : mRings.vertices(at)) sum += vecCast<double>(mMesh.normals[v]);
+    for (const std::uint32_t v : mEdgeCells.vertices(at)) sum += vecCast<double>(mMesh.normals[v]);
     const double l = length(sum);
     mMesh.normals.push_back(vecCast<float>(l > 0 ? sum * (1 / l) : Vec3d{}));
   }
@@ -51,18 +51,18 @@ std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
 }
 
 void Fans::add(const EdgeRef& e) {
-  const std::uint64_t face = mRings.face(e);
+  const std::uint64_t face = mEdgeCells.face(e);
   if (has(face)) return;
   mIsFan[face / 64] |= std::uint64_t{1} << face % 64;
-  mCenter.emplace(e, append(crossing(mRings.cells(e)[0], ringEdge(e.axis(), 0)), e));
+  mCenter.emplace(e, append(crossing(mEdgeCells.cells(e)[0], edgeInCell(e.axis(), 0)), e));
 }
 
 bool Fans::split(const CellRef& c, std::vector<EdgeRef>& changed) {
   if (!mSplit.insert(key(c)).second) return false;
-  mRings.forEachEdge(c, [&](const EdgeRef& e, int) {
+  mEdgeCells.forEachEdge(c, [&](const EdgeRef& e, int) {
     add(e);
     changed.push_back(e);
-    const std::array<CellRef, 4> cells = mRings.cells(e);
+    const std::array<CellRef, 4> cells = mEdgeCells.cells(e);
     for (int k = 0; k < 4; ++k) {
       if (!splitBetween(cells[k], cells[(k + 1) & 3])) continue;
       const CellSegment s = segment(e, cells[k], k);
@@ -78,10 +78,10 @@ bool Fans::split(const CellRef& c, std::vector<EdgeRef>& changed) {
 Fans::CellSegment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const {
   const int u = (e.axis() + 1) % 3, v = (e.axis() + 2) % 3;
   const std::array<int, 4> faceOf{2 * u, 2 * v, 2 * u + 1, 2 * v + 1};
-  const int own = ringEdge(e.axis(), k), code = mRings.code(c);
+  const int own = edgeInCell(e.axis(), k), code = mEdgeCells.code(c);
   const CellEntry& entry = kCellTable[code];
-  const SpecialCell* special = mRings.block(c.block).findSpecial(key(c).second);
-  const bool flipped = special != nullptr && entry.flipFace != kNone && special->patch == entry.flipped.vertex;
+  const MultiVertexCell* multiVertex = mEdgeCells.block(c.block).findMultiVertex(key(c).second);
+  const bool flipped = multiVertex != nullptr && entry.flipFace != kNone && multiVertex->patch == entry.flipped.vertex;
   const Segments all = segments(code, flipped);
   for (int i = 0; i < all.size; ++i) {
     const auto& s = all.at[i];
@@ -102,8 +102,8 @@ Fans::Segment Fans::segmentKey(const CellRef& c, const CellSegment& s) const {
 }
 
 void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
-  const Quad ring = mRings.vertices(e);
-  const std::array<CellRef, 4> cells = mRings.cells(e);
+  const Quad ring = mEdgeCells.vertices(e);
+  const std::array<CellRef, 4> cells = mEdgeCells.cells(e);
   std::array<std::uint32_t, 8> rim;
   int n = 0;
   for (int k = 0; k < 4; ++k) {
@@ -111,7 +111,7 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
     if (splitBetween(cells[k], cells[(k + 1) & 3]))
       rim[n++] = mFaceVertex.at(segmentKey(cells[k], segment(e, cells[k], k)));
   }
-  const bool reversed = mRings.lowInside(e) == mSource.map().mirrored();
+  const bool reversed = mEdgeCells.lowInside(e) == mSource.map().mirrored();
   const std::uint32_t center = mCenter.at(e);
   for (int i = 0; i < n; ++i) {
     const std::uint32_t a = rim[i], b = rim[i + 1 == n ? 0 : i + 1];
@@ -122,7 +122,7 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
 std::size_t Fans::replaceQuads() {
   std::vector<std::uint64_t> faces;
   for (const auto& [edge, center] : mCenter) {
-    faces.push_back(mRings.face(edge));
+    faces.push_back(mEdgeCells.face(edge));
     std::vector<Triangle> fan;
     triangles(edge, fan);
     mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());

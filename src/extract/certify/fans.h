@@ -15,7 +15,7 @@ namespace pdc::detail {
 /// chord between the two crossings that the surface joins there.
 class Fans {
  public:
-  Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const QuadRings& rings, Mesh& mesh);
+  Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const EdgeCells& edgeCells, Mesh& mesh);
   ~Fans();
   Fans(const Fans&) = delete;
   Fans& operator=(const Fans&) = delete;
@@ -52,7 +52,7 @@ class Fans {
   [[nodiscard]] bool splitBetween(const CellRef& a, const CellRef& b) const {
     return mSplit.contains(key(a)) || mSplit.contains(key(b));
   }
-  /// The segment through which an edge's quad goes on from ring cell k, which is `c`, to the next.
+  /// The segment through which an edge's quad goes on from cell k about it, which is `c`, to the next.
   [[nodiscard]] CellSegment segment(const EdgeRef& e, const CellRef& c, int k) const;
   [[nodiscard]] Segment segmentKey(const CellRef& c, const CellSegment& s) const;
   /// Where the surface crosses an edge of a cell, in lattice space.
@@ -61,7 +61,7 @@ class Fans {
 
   const HermiteSource& mSource;
   const SurfaceBlocks& mBlocks;
-  const QuadRings& mRings;
+  const EdgeCells& mEdgeCells;
   Mesh& mMesh;
   std::vector<std::uint64_t> mIsFan;  ///< A bit per face.
   std::map<EdgeRef, std::uint32_t> mCenter;

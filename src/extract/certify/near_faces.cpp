@@ -24,9 +24,9 @@ constexpr double kCellReach = 1, kFreeReach = kFreeHalfSize + 0.5;
 constexpr std::size_t kFacesPerListed = 4;
 
 /// The lattice points of a block that are not farther than `reach` from a box, as bits of a CellMask.
-class Window {
+class PointMask {
  public:
-  Window(const Vec3d& low, const Vec3d& high, double reach, const Coord& block) {
+  PointMask(const Vec3d& low, const Vec3d& high, double reach, const Coord& block) {
     std::array<int, 3> begin, end;
     for (int i = 0; i < 3; ++i) {
       begin[i] = std::max(static_cast<int>(std::ceil(low[i] - reach)) - kBlockSize * block[i], 0);
@@ -61,14 +61,14 @@ struct NearFaces::Scratch {
   Box box;  ///< Of all of them.
   std::vector<Triangle> triangles;
   std::vector<EdgeRef> edges;
-  std::vector<Offence> offences;
+  std::vector<Conflict> conflicts;
 };
 
 NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching)
     : mTests(tests),
       mToLattice(tests.map().affine() ? inverse(tests.map().jacobian({})) : Mat3d::identity()),
       mOrigin(tests.map().affine() ? tests.map().position({}) : Vec3d{}),
-      mFar(tests.rings().blockCount(), farReaching),
+      mFar(tests.edgeCells().blockCount(), farReaching),
       mReach(mFar.size(), kCellReach),
       mLargestReach(kCellReach) {
   std::vector<double> reach(farReaching.size());
@@ -78,13 +78,13 @@ NearFaces::NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReac
     most = std::max(most, reach[i]);
     mLargestReach = std::max(mLargestReach, reach[i]);
   }
-  if (farReaching.size() > tests.rings().faceCount() / kFacesPerListed) return;
+  if (farReaching.size() > tests.edgeCells().faceCount() / kFacesPerListed) return;
   mFarFaces.resize(farReaching.size());
   tbb::enumerable_thread_specific<std::vector<EdgeRef>> edges;
   tbb::parallel_for(std::size_t{0}, farReaching.size(), [&](std::size_t i) {
     mFarFaces[i].edge = farReaching[i];
     std::vector<EdgeRef>& own = edges.local();
-    forEachBlock(mLevel, 1, [&](std::size_t) { list(mFarFaces[i], own); });
+    withSimd(mLevel, [&] { list(mFarFaces[i], own); });
   });
 }
 
@@ -92,9 +92,9 @@ Vec3d NearFaces::latticePosition(const Vec3f& corner) const { return mToLattice 
 
 double NearFaces::reachOf(const EdgeRef& e) const {
   if (!mTests.map().affine()) return kFreeReach;
-  const Vec3d at = mTests.rings().lowEnd(e);
+  const Vec3d at = mTests.edgeCells().lowEnd(e);
   double reach = 0;
-  for (const Vec3f& corner : mTests.corners(mTests.rings().vertices(e)))
+  for (const Vec3f& corner : mTests.corners(mTests.edgeCells().vertices(e)))
     reach = std::max(reach, distance(at, latticePosition(corner)));
   return reach;
 }
@@ -108,9 +108,9 @@ double NearFaces::farReach(const EdgeRef& e) const { return mFar.has(e) ? mReach
 
 inline void NearFaces::addFacesOf(std::int32_t block, const LatticeBox& box, std::vector<EdgeRef>& out) const {
   const std::int32_t farPlace = mFar.place(block);
-  const Coord& coord = mTests.rings().blockCoord(block);
-  const Window near(box.low, box.high, kCellReach, coord);
-  const BlockTopology& topology = mTests.rings().block(block);
+  const Coord& coord = mTests.edgeCells().blockCoord(block);
+  const PointMask near(box.low, box.high, kCellReach, coord);
+  const BlockTopology& topology = mTests.edgeCells().block(block);
   const auto add = [&](int axis, int x, std::uint64_t edges) {
     for (; edges != 0; edges &= edges - 1) out.push_back(edgeAt(block, axis, x, std::countr_zero(edges)));
   };
@@ -119,7 +119,7 @@ inline void NearFaces::addFacesOf(std::int32_t block, const LatticeBox& box, std
       for (int x = near.beginX(); x < near.endX(); ++x) add(axis, x, topology.edges[axis].word[x] & near.word(x));
     return;
   }
-  const Window far(box.low, box.high, mReach[farPlace], coord);
+  const PointMask far(box.low, box.high, mReach[farPlace], coord);
   for (int axis = 0; axis < 3; ++axis)
     for (int x = far.beginX(); x < far.endX(); ++x)
       add(axis, x, (topology.edges[axis].word[x] & near.word(x)) | (mFar.edges(farPlace, axis).word[x] & far.word(x)));
@@ -137,14 +137,14 @@ inline void NearFaces::facesAbout(const LatticeBox& box, std::vector<EdgeRef>& o
   for (Coord b = from; b[0] <= to[0]; ++b[0])
     for (b[1] = from[1]; b[1] <= to[1]; ++b[1])
       for (b[2] = from[2]; b[2] <= to[2]; ++b[2])
-        if (const std::int32_t block = mTests.rings().find(b); block != BlockIndex::kMissing)
+        if (const std::int32_t block = mTests.edgeCells().find(b); block != BlockIndex::kMissing)
           addFacesOf(block, box, out);
 }
 
 /// Of a face that is in a box of world space.
 inline NearFaces::LatticeBox NearFaces::latticeBox(const EdgeRef& e, const Box& box) const {
   if (mTests.map().affine()) return latticeBox(box);
-  const Vec3d p = mTests.rings().lowEnd(e), reach{kFreeReach, kFreeReach, kFreeReach};
+  const Vec3d p = mTests.edgeCells().lowEnd(e), reach{kFreeReach, kFreeReach, kFreeReach};
   return {p - reach, p + reach};
 }
 
@@ -165,10 +165,11 @@ inline NearFaces::LatticeBox NearFaces::latticeBox(const Box& box) const {
 
 /// Lists what is near the face wherever it is between its present and its safe place.
 inline void NearFaces::list(FarFace& face, std::vector<EdgeRef>& edges) const {
-  const Quad ring = mTests.rings().vertices(face.edge);
+  const Quad ring = mTests.edgeCells().vertices(face.edge);
   face.likely = Box(mTests.corners(ring));
   for (const std::uint32_t v : ring)
-    if (const LooseVertex* loose = mTests.loose(v)) face.likely.add(float4(mTests.worldPosition(*loose, loose->safe)));
+    if (const SuspectVertex* suspect = mTests.suspect(v))
+      face.likely.add(float4(mTests.worldPosition(*suspect, suspect->safe)));
   facesAbout(latticeBox(face.edge, face.likely), edges);
   for (const EdgeRef& e : edges) {
     if (mFar.has(e)) {
@@ -181,12 +182,12 @@ inline void NearFaces::list(FarFace& face, std::vector<EdgeRef>& edges) const {
 
 /// Whether a face whose vertices stay where they are never reaches into a box.
 inline bool NearFaces::staysApart(const EdgeRef& e, const Box& box) const {
-  const Quad* quad = mTests.quad(mTests.rings().face(e));
+  const Quad* quad = mTests.quad(mTests.edgeCells().face(e));
   if (quad == nullptr) return false;
   Box own(mTests.corners(*quad));
   if (!own.apartFrom(box)) return false;
   // It may become a fan, about a vertex on its lattice edge.
-  Vec3d end = mTests.rings().lowEnd(e);
+  Vec3d end = mTests.edgeCells().lowEnd(e);
   own.add(float4(vecCast<float>(mTests.map().position(end))));
   end[e.axis()] += 1;
   own.add(float4(vecCast<float>(mTests.map().position(end))));
@@ -222,7 +223,7 @@ inline void NearFaces::load(Scratch& own, const std::vector<Triangle>& triangles
 }
 
 inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom,
-                              std::vector<Offence>& out) const {
+                              std::vector<Conflict>& out) const {
   for (std::size_t i = 0; i < own.own.size(); ++i) {
     const FilteredTriangle& t = own.own[i];
     if (!mTests.facesForward(e, t.vertices, t.corners)) return out.push_back({e, e, t.vertices, t.vertices});
@@ -235,7 +236,7 @@ inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* fou
   const auto goOn = [&] { return foundFrom != nullptr || out.empty(); };
   if (!goOn()) return;
   forEachNear(e, own, [&](const EdgeRef& other) {
-    const std::uint64_t face = mTests.rings().face(other);
+    const std::uint64_t face = mTests.edgeCells().face(other);
     if (const Quad* quad = mTests.quad(face)) {
       const std::array<Vec3f, 4> corners = mTests.corners(*quad);
       if (own.box.apartFrom(Box(corners)) || isFoundFrom(other)) return true;
@@ -252,7 +253,7 @@ inline void NearFaces::search(const EdgeRef& e, Scratch& own, const EdgeSet* fou
 
 /// The triangles of the face in `own` with those of a quad.
 inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, const EdgeRef& other, const Quad& quad,
-                               const std::array<Vec3f, 4>& corners, std::vector<Offence>& out) const {
+                               const std::array<Vec3f, 4>& corners, std::vector<Conflict>& out) const {
   const Points points(corners);
   for (const FilteredTriangle& o : own.own) {
     const std::array<Sides, 4> sides = o.plane.sides(quad, points);
@@ -272,7 +273,7 @@ inline void NearFaces::compare(const EdgeRef& e, const Scratch& own, const EdgeR
 }
 
 inline void NearFaces::updateBox(FarFace& face, Scratch& own) const {
-  const std::uint64_t number = mTests.rings().face(face.edge);
+  const std::uint64_t number = mTests.edgeCells().face(face.edge);
   if (const Quad* quad = mTests.quad(number)) {
     face.now = Box(mTests.corners(*quad));
     return;
@@ -282,16 +283,16 @@ inline void NearFaces::updateBox(FarFace& face, Scratch& own) const {
   for (const Triangle& t : own.triangles) face.now.add(Box(mTests.corners(t)));
 }
 
-std::vector<Offence> NearFaces::findOffences(const std::vector<EdgeRef>& active) {
+std::vector<Conflict> NearFaces::findConflicts(const std::vector<EdgeRef>& active) {
   tbb::enumerable_thread_specific<Scratch> scratch;
   tbb::parallel_for(std::size_t{0}, active.size(), [&](std::size_t i) {
     if (!mFarFaces.empty() && mFar.has(active[i])) updateBox(mFarFaces[mFar.number(active[i])], scratch.local());
   });
-  const EdgeSet all(mTests.rings().blockCount(), active);
-  std::vector<Offence> found = gather<Offence>(active.size(), [&](std::size_t i, std::vector<Offence>& out) {
+  const EdgeSet all(mTests.edgeCells().blockCount(), active);
+  std::vector<Conflict> found = gather<Conflict>(active.size(), [&](std::size_t i, std::vector<Conflict>& out) {
     Scratch& own = scratch.local();
-    mTests.triangles(active[i], mTests.rings().face(active[i]), own.triangles);
-    forEachBlock(mLevel, 1, [&](std::size_t) {
+    mTests.triangles(active[i], mTests.edgeCells().face(active[i]), own.triangles);
+    withSimd(mLevel, [&] {
       load(own, own.triangles);
       search(active[i], own, &all, out);
     });
@@ -308,12 +309,12 @@ std::vector<std::uint8_t> NearFaces::soundWhenTurned(const std::vector<EdgeRef>&
     Scratch& own = scratch.local();
     const Quad& q = turned[i];
     own.triangles = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
-    own.offences.clear();
-    forEachBlock(mLevel, 1, [&](std::size_t) {
+    own.conflicts.clear();
+    withSimd(mLevel, [&] {
       load(own, own.triangles);
-      search(edges[i], own, nullptr, own.offences);
+      search(edges[i], own, nullptr, own.conflicts);
     });
-    sound[i] = own.offences.empty();
+    sound[i] = own.conflicts.empty();
   });
   return sound;
 }

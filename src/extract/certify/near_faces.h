@@ -13,15 +13,15 @@
 namespace pdc::detail {
 
 /// Two triangles that meet where they should not; or, twice the same, one that is degenerate or faces backwards.
-struct Offence {
+struct Conflict {
   EdgeRef edge0, edge1;  ///< Whose faces they belong to.
   Triangle triangle0, triangle1;
-  friend auto operator<=>(const Offence&, const Offence&) = default;
+  friend auto operator<=>(const Conflict&, const Conflict&) = default;
 };
 
-/// Calls visit for each corner of an offence's triangles.
+/// Calls visit for each corner of a conflict's triangles.
 template <typename Visit>
-void forEachCorner(const Offence& o, Visit&& visit) {
+void forEachCorner(const Conflict& o, Visit&& visit) {
   for (const Triangle& t : {o.triangle0, o.triangle1})
     for (const std::uint32_t v : t) visit(v);
 }
@@ -32,23 +32,23 @@ class NearFaces {
   /// \param farReaching the edges whose faces may leave the cells about them; sorted.
   NearFaces(const FaceTests& tests, const std::vector<EdgeRef>& farReaching);
 
-  /// The offences of the triangles of `active` against each other and against all others near them; sorted. Runs in
+  /// The conflicts of the triangles of `active` against each other and against all others near them; sorted. Runs in
   /// parallel.
   /// \param active sorted; all faces that changed since the last call are among them.
-  [[nodiscard]] std::vector<Offence> findOffences(const std::vector<EdgeRef>& active);
+  [[nodiscard]] std::vector<Conflict> findConflicts(const std::vector<EdgeRef>& active);
 
   /// Replaces `out` by the edges whose faces may reach into a box of world space; for affine maps.
   void facesAbout(const Box& box, std::vector<EdgeRef>& out) const;
   /// How far, as distance() has it, corners of the edge's face may go from the low end of the edge so that facesAbout
-  /// and findOffences still find the face everywhere; negative if it is none of the far-reaching ones.
+  /// and findConflicts still find the face everywhere; negative if it is none of the far-reaching ones.
   [[nodiscard]] double farReach(const EdgeRef& e) const;
   /// From a lattice point to a place in lattice space, along the axis where it is largest.
   [[nodiscard]] static double distance(const Vec3d& from, const Vec3d& place);
   /// Where a corner is in lattice space; for affine maps.
   [[nodiscard]] Vec3d latticePosition(const Vec3f& corner) const;
 
-  /// For each of some edges whose faces are quads: whether there is no offence if its quad is `turned[i]` instead,
-  /// which has the same corners. No face has changed since the last findOffences. Runs in parallel.
+  /// For each of some edges whose faces are quads: whether there is no conflict if its quad is `turned[i]` instead,
+  /// which has the same corners. No face has changed since the last findConflicts. Runs in parallel.
   [[nodiscard]] std::vector<std::uint8_t> soundWhenTurned(const std::vector<EdgeRef>& edges,
                                                           const std::vector<Quad>& turned) const;
 
@@ -78,11 +78,11 @@ class NearFaces {
   template <typename Visit>
   void forEachNear(const EdgeRef& e, Scratch& own, Visit&& visit) const;
   void load(Scratch& own, const std::vector<Triangle>& triangles) const;
-  /// Appends the offences of the face in `own`.
-  /// \param foundFrom offences of a face of these that comes before are left to it. Null: one offence is enough.
-  void search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom, std::vector<Offence>& out) const;
+  /// Appends the conflicts of the face in `own`.
+  /// \param foundFrom conflicts of a face of these that comes before are left to it. Null: one conflict is enough.
+  void search(const EdgeRef& e, Scratch& own, const EdgeSet* foundFrom, std::vector<Conflict>& out) const;
   void compare(const EdgeRef& e, const Scratch& own, const EdgeRef& other, const Quad& quad,
-               const std::array<Vec3f, 4>& corners, std::vector<Offence>& out) const;
+               const std::array<Vec3f, 4>& corners, std::vector<Conflict>& out) const;
 
   const FaceTests& mTests;
   const SimdLevel mLevel = bestSimdLevel();

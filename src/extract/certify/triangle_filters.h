@@ -54,7 +54,7 @@ class TrianglePlane {
     mNormal = cross(u, v);
     // Several times what rounding can do to the sign of a triple product.
     constexpr double kRounding = 1e-14;
-    mDoubt = kRounding * kRounding * dot(u, u) * dot(v, v);
+    mErrorBound = kRounding * kRounding * dot(u, u) * dot(v, v);
   }
 
   /// The sides of some points.
@@ -81,7 +81,7 @@ class TrianglePlane {
     y -= mOrigin.y;
     z -= mOrigin.z;
     const Double4 side = x * mNormal.x + y * mNormal.y + z * mNormal.z;
-    const auto sure = side * side > (x * x + y * y + z * z) * mDoubt;
+    const auto sure = side * side > (x * x + y * y + z * z) * mErrorBound;
     // Each bit is in the lower half of its number, where AVX2 has no other way to narrow it.
     using Int8 = std::int32_t __attribute__((vector_size(32)));
     const auto bits = reinterpret_cast<Int8>((sure & (side > 0.0) & 1) | (sure & (side < 0.0) & 2) | (~sure & 4));
@@ -99,7 +99,7 @@ class TrianglePlane {
 
   Triangle mVertices;
   Vec3d mOrigin, mNormal;
-  double mDoubt;
+  double mErrorBound;
 };
 
 /// A box in world space.

@@ -28,17 +28,17 @@ std::array<std::uint8_t, 3> notAmong(const Triangle& others, const Triangle& cor
 
 }  // namespace
 
-VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex,
+VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
                          std::span<const Vec3f> places)
     : mNearFaces(near), mTests(tests), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
   const Box ofPlaces = boxOf(places);
   Box all = ofPlaces;
-  tests.rings().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
-    mReach.push_back({tests.rings().lowEnd(e), near.farReach(e)});
-    all.add(Box(tests.corners(tests.rings().vertices(e))));
+  tests.edgeCells().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
+    mReach.push_back({tests.edgeCells().lowEnd(e), near.farReach(e)});
+    all.add(Box(tests.corners(tests.edgeCells().vertices(e))));
   });
   addFaces(all);
-  findSides();
+  findSheets();
   mOrder.resize(mPieces.size());
   std::iota(mOrder.begin(), mOrder.end(), std::size_t{0});
   for (OwnTriangle& own : mOwn) addNear(own, ofPlaces);
@@ -50,7 +50,7 @@ void VertexTrial::addFaces(const Box& box) {
   mNearFaces.facesAbout(box, edges);
   std::vector<Triangle> triangles;
   for (const EdgeRef& e : edges) {
-    const std::uint64_t face = mTests.rings().face(e);
+    const std::uint64_t face = mTests.edgeCells().face(e);
     const Quad* quad = mTests.quad(face);
     const bool own = quad != nullptr && hasVertex(*quad, mVertex);
     if (quad != nullptr && !own && box.apartFrom(Box(mTests.corners(*quad)))) continue;
@@ -84,7 +84,7 @@ void VertexTrial::addOwn(const EdgeRef& e, std::span<const Triangle> triangles) 
   }
 }
 
-void VertexTrial::findSides() {
+void VertexTrial::findSheets() {
   std::vector<Points> points;
   const auto add = [&points](std::size_t n, auto&& position) {
     const std::size_t column = 4 * points.size();
@@ -101,7 +101,7 @@ void VertexTrial::findSides() {
   mColumns = 4 * points.size();
   mSides.resize(mFixed.size() * mColumns);
   mOfPlaces.resize(mFixed.size());
-  forEachBlock(bestSimdLevel(), mFixed.size(), [&](std::size_t i) {
+  forEachBatch(bestSimdLevel(), mFixed.size(), [&](std::size_t i) {
     Sides* to = &mSides[mColumns * i];
     for (std::size_t k = 0; k < points.size(); ++k, to += 4) {
       const std::array<Sides, 4> sides = mFixed[i].plane.sides(points[k]);
@@ -144,24 +144,24 @@ bool VertexTrial::finds(std::size_t place) const {
                      [&](const Reach& r) { return NearFaces::distance(r.low, p) <= r.most; });
 }
 
-std::size_t VertexTrial::countOffences(std::size_t place, std::size_t most) {
+std::size_t VertexTrial::countConflicts(std::size_t place, std::size_t most) {
   std::size_t count = 0;
-  forEachBlock(bestSimdLevel(), 1, [&](std::size_t) {
+  withSimd(bestSimdLevel(), [&] {
     for (std::size_t i = 0; i < mOrder.size() && count < most; ++i) {
       OwnPiece& piece = mPieces[mOrder[i]];
       move(piece, place);
-      piece.offences = countPiece(i, most - count);
-      count += piece.offences;
+      piece.conflicts = countPiece(i, most - count);
+      count += piece.conflicts;
     }
   });
-  // What offends at one place is likely to at the next: `most` is reached sooner.
-  const auto before = [this](std::size_t a, std::size_t b) { return mPieces[a].offences > mPieces[b].offences; };
+  // What has conflicts at one place is likely to have some at the next: `most` is reached sooner.
+  const auto before = [this](std::size_t a, std::size_t b) { return mPieces[a].conflicts > mPieces[b].conflicts; };
   for (auto it = mOrder.begin(); it != mOrder.end(); ++it)
     std::rotate(std::upper_bound(mOrder.begin(), it, *it, before), it, it + 1);
   return count;
 }
 
-/// Offences of the piece that is the i-th in order, with the fixed triangles and the pieces before it.
+/// Conflicts of the piece that is the i-th in order, with the fixed triangles and the pieces before it.
 inline std::size_t VertexTrial::countPiece(std::size_t i, std::size_t most) {
   const OwnPiece& piece = mPieces[mOrder[i]];
   const std::span<OwnTriangle> own = triangles(piece);

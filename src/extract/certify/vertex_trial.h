@@ -14,12 +14,13 @@ namespace pdc::detail {
 class VertexTrial {
  public:
   /// \param places in world space, the vertex's own among them; must outlive this.
-  VertexTrial(const NearFaces& near, const FaceTests& tests, const LooseVertex& vertex, std::span<const Vec3f> places);
+  VertexTrial(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
+              std::span<const Vec3f> places);
 
   /// Whether the tests of other faces would find those of the vertex at one of the places.
   [[nodiscard]] bool finds(std::size_t place) const;
-  /// How many offences the faces of the vertex would have at one of the places; counts to `most`.
-  [[nodiscard]] std::size_t countOffences(std::size_t place, std::size_t most);
+  /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`.
+  [[nodiscard]] std::size_t countConflicts(std::size_t place, std::size_t most);
 
  private:
   /// A fixed triangle that one of the vertex may meet.
@@ -37,9 +38,9 @@ class VertexTrial {
   };
   /// A quad, or one triangle of a fan.
   struct OwnPiece {
-    Vec3d forward;             ///< The way the surface passes its edge.
-    std::size_t first, count;  ///< Triangles, in mOwn.
-    std::size_t offences = 0;  ///< When last counted.
+    Vec3d forward;              ///< The way the surface passes its edge.
+    std::size_t first, count;   ///< Triangles, in mOwn.
+    std::size_t conflicts = 0;  ///< When last counted.
   };
   /// A face of the vertex, and how far it may reach from the low end of its edge.
   struct Reach {
@@ -49,7 +50,7 @@ class VertexTrial {
 
   void addFaces(const Box& box);
   void addOwn(const EdgeRef& e, std::span<const Triangle> triangles);
-  void findSides();
+  void findSheets();
   void addNear(OwnTriangle& own, const Box& places);
   void move(const OwnPiece& piece, std::size_t place);
   [[nodiscard]] bool facesForward(const OwnPiece& piece, OwnTriangle& own) const;

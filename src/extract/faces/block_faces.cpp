@@ -15,7 +15,7 @@ namespace {
 
 /// Of triple products of three places not farther than a cell from a lattice point: what single precision does to
 /// their sums, and what rounding the places in world space does.
-float volumeDoubt(const LatticeMap& map, const Coord& block) {
+float volumeErrorBound(const LatticeMap& map, const Coord& block) {
   constexpr double kArithmetic = 1e-5, kPerRounding = 16;
   return static_cast<float>(kArithmetic + kPerRounding * cellRounding(map, block));
 }
@@ -26,15 +26,15 @@ float volumeDoubt(const LatticeMap& map, const Coord& block) {
 /// function of a SimdLevel.
 class BlockFaceWriter::Block {
  public:
-  Block(const BlockFaceWriter& writer, std::size_t block, const VertexErrors& errors, Doubts* doubts)
+  Block(const BlockFaceWriter& writer, std::size_t block, const VertexErrors& errors, Suspects* suspects)
       : mWriter(writer),
         mOwn(writer.mTopology.blocks[block]),
         mBlock(block),
         mVertices(writer.mTopology, mOwn),
         mErrors(errors),
-        mDoubts(doubts),
+        mSuspects(suspects),
         mQuads(writer.mQuads + mOwn.firstQuad),
-        mDoubt(doubts != nullptr ? volumeDoubt(writer.mMap, writer.mBlocks.coords[block]) : 0.0F) {}
+        mErrorBound(suspects != nullptr ? volumeErrorBound(writer.mMap, writer.mBlocks.coords[block]) : 0.0F) {}
 
   void run() {
     listEdges();
@@ -43,9 +43,9 @@ class BlockFaceWriter::Block {
       findVertices<1>();
       findVertices<2>();
     } else {
-      const QuadRings rings(mWriter.mBlocks, mWriter.mTopology);
+      const EdgeCells edgeCells(mWriter.mBlocks, mWriter.mTopology);
       for (int i = 0; i < mBegin[3]; ++i) {
-        const Quad ring = rings.vertices(edge(i));
+        const Quad ring = edgeCells.vertices(edge(i));
         for (int k = 0; k < 4; ++k) mVertex[k][i] = ring[k];
       }
     }
@@ -72,7 +72,8 @@ class BlockFaceWriter::Block {
     constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
     for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
       const std::uint32_t* at = mVertices.at(mEdge[i] & 511);
-      for (int k = 0; k < 4; ++k) mVertex[k][i] = at[-(kRing[k][0] * kStepU + kRing[k][1] * kStepV)];
+      for (int k = 0; k < 4; ++k)
+        mVertex[k][i] = at[-(kCellsAboutEdge[k][0] * kStepU + kCellsAboutEdge[k][1] * kStepV)];
     }
   }
 
@@ -84,28 +85,28 @@ class BlockFaceWriter::Block {
       std::uint32_t* const vertex = &mVertex[k][first];
       std::fill(vertex + used, vertex + kLanes, vertex[0]);
       alignas(64) std::uint32_t place[kLanes];
-      forEachLane([&place, vertex, ring = mErrors.ring()](int i) { place[i] = ring.place(vertex[i]); });
+      forEachLane([&place, vertex, index = mErrors.index()](int i) { place[i] = index.place(vertex[i]); });
       const VertexError* errors = mErrors.data();
       for (int i = 0; i < kLanes; i += 4)
         mLanes.set(k, i, {errors + place[i], errors + place[i + 1], errors + place[i + 2], errors + place[i + 3]});
     }
     for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] >> 9;
     chooseDiagonals(mLanes);
-    if (mDoubts != nullptr) {
-      findPassing(mLanes, mDoubt);
+    if (mSuspects != nullptr) {
+      findPassing(mLanes, mErrorBound);
       for (int i = 0; i < used; ++i)
-        if ((mLanes.passes[i] & 1) == 0) noteDoubt(first + i, i);
+        if ((mLanes.passes[i] & 1) == 0) noteSuspect(first + i, i);
     }
     write(first, used);
   }
 
   /// The diagonal of a lane's quad does not pass.
-  void noteDoubt(int i, int lane) {
+  void noteSuspect(int i, int lane) {
     if ((mLanes.passes[lane] & 2) != 0) {
       mLanes.first[lane] ^= 1;
-      ++mDoubts->forcedDiagonals;
+      ++mSuspects->forcedDiagonals;
     } else {
-      mDoubts->quads.push_back(edge(i));
+      mSuspects->quads.push_back(edge(i));
     }
   }
 
@@ -135,9 +136,9 @@ class BlockFaceWriter::Block {
   const std::size_t mBlock;
   const CellVertices mVertices;
   const VertexErrors& mErrors;
-  Doubts* const mDoubts;
+  Suspects* const mSuspects;
   Quad* const mQuads;
-  const float mDoubt;
+  const float mErrorBound;
   QuadLanes mLanes;
   std::array<int, 4> mBegin{};  ///< Per axis, the first of its edges in the lists.
   // Not cleared: a block uses little of them.
@@ -145,8 +146,8 @@ class BlockFaceWriter::Block {
   std::array<std::array<std::uint32_t, kMostQuads + kLanes>, 4> mVertex;
 };
 
-void BlockFaceWriter::run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const {
-  forEachBlock(mLevel, 1, [&](std::size_t) { Block(*this, block, errors, doubts).run(); });
+void BlockFaceWriter::run(std::size_t block, const VertexErrors& errors, Suspects* suspects) const {
+  withSimd(mLevel, [&] { Block(*this, block, errors, suspects).run(); });
 }
 
 }  // namespace pdc::detail

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "extract/topology/block_topology.h"
+#include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
 #include "extract/vertices/vertex_errors.h"
 #include "pdc/math/simd_level.h"
@@ -15,13 +15,16 @@ namespace pdc::detail {
 /// creases off.
 class BlockFaceWriter {
  public:
-  BlockFaceWriter(const SurfaceBlocks& blocks, const Topology& topology, const LatticeMap& map, Quad* quads,
-                  SimdLevel level)
-      : mBlocks(blocks), mTopology(topology), mMap(map), mQuads(quads), mLevel(level) {}
+  BlockFaceWriter(const Surface& surface, Quad* quads, SimdLevel level)
+      : mBlocks(surface.blocks),
+        mTopology(surface.topology),
+        mMap(surface.source.map()),
+        mQuads(quads),
+        mLevel(level) {}
 
-  /// \param doubts null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
+  /// \param suspects null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
   /// Such a quad is split along the other diagonal if that one passes.
-  void run(std::size_t block, const VertexErrors& errors, Doubts* doubts) const;
+  void run(std::size_t block, const VertexErrors& errors, Suspects* suspects) const;
 
  private:
   class Block;

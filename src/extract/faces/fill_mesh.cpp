@@ -10,22 +10,21 @@
 
 #include "extract/faces/block_faces.h"
 #include "extract/faces/block_groups.h"
-#include "extract/vertices/vertex_solver.h"
 #include "parallel/block_progress.h"
 
 namespace pdc::detail {
 namespace {
 
-/// Blocks per thread and window: enough that threads seldom wait for each other, few enough that what faces need of two
-/// windows' vertices (about 64 a block, 48 bytes each) stays in a second-level cache.
-constexpr std::size_t kWindowBlocks = 128;
+/// Blocks per thread and run of slabs: enough that threads seldom wait for each other, few enough that what faces need
+/// of two runs of slabs' vertices (about 64 a block, 48 bytes each) stays in a second-level cache.
+constexpr std::size_t kSlabRunBlocks = 128;
 
 /// Room for the vertices that certifying may add, as a share of all: so that they do not move the rest.
 constexpr double kRoomForFans = 1.0 / 256;
 
-/// Ends of windows: runs of whole slabs of blocks with the same x.
-std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
-  const std::size_t least = kWindowBlocks * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+/// Ends of runs of whole slabs, the blocks with the same x.
+std::vector<std::size_t> slabRunEnds(const std::vector<Coord>& blocks) {
+  const std::size_t least = kSlabRunBlocks * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   std::vector<std::size_t> ends;
   for (std::size_t begin = 0; begin < blocks.size();) {
     std::size_t end = std::min(begin + least, blocks.size());
@@ -39,7 +38,7 @@ std::vector<std::size_t> windowEnds(const std::vector<Coord>& blocks) {
   return ends;
 }
 
-/// The most vertices that two windows in a row have.
+/// The most vertices that two runs of slabs in a row have.
 std::size_t longestRun(const Topology& topology, const std::vector<std::size_t>& ends) {
   std::uint64_t most = 0, previous = 0, first = 0;
   for (const std::size_t end : ends) {
@@ -51,31 +50,28 @@ std::size_t longestRun(const Topology& topology, const std::vector<std::size_t>&
   return most;
 }
 
-/// Fills the arrays of a mesh, which have their sizes, window by window.
+/// Fills the arrays of a mesh, which have their sizes, a run of slabs after the other.
 class MeshFiller {
  public:
-  MeshFiller(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-             const ContourOptions& options, const SigmaNormal& sigma, Mesh& mesh, bool promised, const Monitor& monitor,
-             SimdLevel level)
-      : mBlocks(blocks),
-        mTopology(topology),
+  MeshFiller(const Surface& surface, const FillMeshOptions& options, Mesh& mesh, bool noteSuspects,
+             const Monitor& monitor)
+      : mSurface(surface),
         mMonitor(monitor),
-        mPromised(promised),
-        mEnds(windowEnds(blocks.coords)),
-        mErrors(longestRun(topology, mEnds)),
+        mNoteSuspects(noteSuspects),
+        mEnds(slabRunEnds(surface.blocks.coords)),
+        mErrors(longestRun(surface.topology, mEnds)),
         mOut{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &mErrors, nullptr},
-        mFaces(blocks, topology, source.map(), mesh.quads.data(), level),
-        mSolvers(
-            [&source, sigma, level, halfSize = options.placement == Placement::kCell ? kCellHalfSize : kFreeHalfSize] {
-              return BlockVertexSolver(source, sigma, halfSize, level);
-            }),
-        mProgress(monitor, "contour", blocks.coords.size()) {}
+        mFaces(surface, mesh.quads.data(), options.level),
+        mSolvers([&surface, &options] {
+          return BlockVertexSolver(surface.source, options.sigma, options.halfSize, options.level);
+        }),
+        mProgress(monitor, "contour", surface.blocks.coords.size()) {}
 
   VertexCounts run() {
     std::size_t previous = 0, begin = 0;
     for (const std::size_t end : mEnds) {
-      mErrors.moveOn(mTopology.blocks[previous].firstVertex);  // Faces reach back into the window before.
-      fillWindow(begin, end);
+      mErrors.moveOn(mSurface.topology.blocks[previous].firstVertex);  // Faces reach back into the run of slabs before.
+      fillSlabRun(begin, end);
       previous = begin;
       begin = end;
     }
@@ -84,18 +80,18 @@ class MeshFiller {
     return total;
   }
 
-  void appendDoubts(Doubts& doubts) const {
-    for (const Doubts& d : mDoubts) doubts.append(d);
-    std::sort(doubts.vertices.begin(), doubts.vertices.end(),
-              [](const LooseVertex& a, const LooseVertex& b) { return a.vertex < b.vertex; });
-    std::sort(doubts.quads.begin(), doubts.quads.end());
+  void appendSuspects(Suspects& suspects) const {
+    for (const Suspects& d : mSuspects) suspects.append(d);
+    std::sort(suspects.vertices.begin(), suspects.vertices.end(),
+              [](const SuspectVertex& a, const SuspectVertex& b) { return a.vertex < b.vertex; });
+    std::sort(suspects.quads.begin(), suspects.quads.end());
   }
 
  private:
   using FacelessBlocks = std::vector<std::size_t>;
 
-  void fillWindow(std::size_t begin, std::size_t end) {
-    BlockGroups groups(mTopology, begin, end);
+  void fillSlabRun(std::size_t begin, std::size_t end) {
+    BlockGroups groups(mSurface.topology, begin, end);
     tbb::enumerable_thread_specific<FacelessBlocks> waiting;
     tbb::parallel_for(std::size_t{0}, groups.count(), [&](std::size_t) {
       mMonitor.throwIfStopped();
@@ -103,7 +99,7 @@ class MeshFiller {
     });
     FacelessBlocks rest;
     for (const FacelessBlocks& some : waiting) rest.insert(rest.end(), some.begin(), some.end());
-    tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { mFaces.run(rest[i], mErrors, doubts()); });
+    tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { mFaces.run(rest[i], mErrors, suspects()); });
   }
 
   /// Solves a group's vertices and writes the faces of those blocks, of it and of `faceless`, whose vertices are all
@@ -112,54 +108,50 @@ class MeshFiller {
     BlockVertexSolver& solver = mSolvers.local();
     VertexCounts& counts = mCounts.local();
     VertexOutput out = mOut;
-    out.doubts = doubts();
+    out.suspects = suspects();
     for (std::size_t i = range.begin; i != range.end; ++i) {
-      solver.run(i, mBlocks, mTopology, out, counts);
+      solver.run(i, mSurface, out, counts);
       faceless.push_back(i);
     }
     groups.setSolved(range.group);
     std::erase_if(faceless, [&](std::size_t i) {
       const bool ready = groups.hasItsVertices(i);
-      if (ready) mFaces.run(i, mErrors, out.doubts);
+      if (ready) mFaces.run(i, mErrors, out.suspects);
       return ready;
     });
     mProgress.advance(range.end - range.begin);
   }
 
   /// The thread's own, or null.
-  [[nodiscard]] Doubts* doubts() { return mPromised ? &mDoubts.local() : nullptr; }
+  [[nodiscard]] Suspects* suspects() { return mNoteSuspects ? &mSuspects.local() : nullptr; }
 
-  const SurfaceBlocks& mBlocks;
-  const Topology& mTopology;
+  const Surface& mSurface;
   const Monitor& mMonitor;
-  const bool mPromised;
-  const std::vector<std::size_t> mEnds;  ///< Of windows.
+  const bool mNoteSuspects;
+  const std::vector<std::size_t> mEnds;  ///< Of runs of slabs.
   VertexErrors mErrors;
   const VertexOutput mOut;
   const BlockFaceWriter mFaces;
   tbb::enumerable_thread_specific<BlockVertexSolver> mSolvers;
-  tbb::enumerable_thread_specific<Doubts> mDoubts;
+  tbb::enumerable_thread_specific<Suspects> mSuspects;
   tbb::combinable<VertexCounts> mCounts;
   BlockProgress mProgress;
 };
 
 }  // namespace
 
-VertexCounts fillMesh(const HermiteSource& source, const SurfaceBlocks& blocks, const Topology& topology,
-                      const ContourOptions& options, Mesh& mesh, Doubts* doubts, const Monitor& monitor,
-                      SimdLevel level) {
-  if (doubts != nullptr)
+VertexCounts fillMesh(const Surface& surface, const FillMeshOptions& options, Mesh& mesh, Suspects* suspects,
+                      const Monitor& monitor) {
+  const Topology& topology = surface.topology;
+  if (suspects != nullptr)
     mesh.positions.reserve(topology.vertexCount +
                            static_cast<std::size_t>(kRoomForFans * static_cast<double>(topology.vertexCount)));
   mesh.positions.resize(topology.vertexCount);
   if (options.normals) mesh.normals.resize(topology.vertexCount);
   mesh.quads.resize(topology.quadCount);
-  const SigmaNormal sigma =
-      options.sigmaNormal ? SigmaNormal(*options.sigmaNormal) : SigmaNormal::fromData(source, blocks, monitor);
-  MeshFiller filler(source, blocks, topology, options, sigma, mesh, doubts != nullptr, monitor, level);
-  VertexCounts counts = filler.run();
-  counts.normalNoise = sigma.noise();
-  if (doubts != nullptr) filler.appendDoubts(*doubts);
+  MeshFiller filler(surface, options, mesh, suspects != nullptr, monitor);
+  const VertexCounts counts = filler.run();
+  if (suspects != nullptr) filler.appendSuspects(*suspects);
   return counts;
 }
 

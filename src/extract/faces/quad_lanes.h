@@ -9,7 +9,7 @@
 
 namespace pdc::detail {
 
-/// Sixteen quads about lattice edges, one per lane, their corners in the order of kRing: at the axis' next
+/// Sixteen quads about lattice edges, one per lane, their corners in the order of kCellsAboutEdge: at the axis' next
 /// two axes (u, v) = (0, 0), (-1, 0), (-1, -1), (0, -1).
 struct QuadLanes {
   alignas(64) std::uint32_t axis[kLanes];  ///< Of the edge.
@@ -69,18 +69,18 @@ inline void chooseDiagonals(QuadLanes& quads) {
 
 /// Finds out whether the lattice edges pass from behind to before the planes of both triangles of a quad, for either
 /// diagonal: a quick test that may say no in vain, but not yes. Must be compiled into a function of a SimdLevel.
-/// \param doubt what rounding may add to, or take from, the volumes that this looks at.
-inline void findPassing(QuadLanes& quads, float doubt) {
-  forEachLane([&quads, doubt](int i) {
+/// \param errorBound what rounding may add to, or take from, the volumes that this looks at.
+inline void findPassing(QuadLanes& quads, float errorBound) {
+  forEachLane([&quads, errorBound](int i) {
     const std::uint32_t axis = quads.axis[i];
     const auto corner = [&quads, i](int k) {
       const auto& c = quads.corner[k];
       return Vec3f{c[0][i], c[1][i], c[2][i]} + Vec3f{0.5F, 0.5F, 0.5F};
     };
-    const auto crosses = [doubt, axis](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const auto crosses = [errorBound, axis](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
       const Vec3f n = cross(b - a, c - a);
       const float low = dot(n, a), high = ofAxis(axis, n.x, n.y, n.z) - low;
-      return unsigned(low > doubt) & unsigned(high > doubt);
+      return unsigned(low > errorBound) & unsigned(high > errorBound);
     };
     const Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, u = ofAxis(axis, y, z, x), v = ofAxis(axis, z, x, y);
     const Vec3f p0 = corner(0), p1 = corner(1) - u, p2 = corner(2) - u - v, p3 = corner(3) - v;

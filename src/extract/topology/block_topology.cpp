@@ -39,7 +39,7 @@ struct PointLayer {
   std::uint64_t here = 0, y = 0, z = 0, yz = 0;
 };
 
-/// Faces with two inside corners that face each other, from the corners' signs in ring order.
+/// Faces with two inside corners that face each other, from the corners' signs in order about the edge.
 std::uint64_t ambiguousFaces(std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
   return ~(a ^ c) & ~(b ^ d) & (a ^ b);
 }
@@ -49,8 +49,8 @@ std::uint64_t loneCorners(std::uint64_t c, std::uint64_t across, std::uint64_t n
   return ~(c ^ across) & (c ^ n0) & (c ^ n1) & (c ^ n2);
 }
 
-/// Among the 64 cells between two layers all that are strict (see CellEntry), and few others.
-std::uint64_t mayBeStrict(const PointLayer& l, const PointLayer& h) {
+/// Among the 64 cells between two layers all that are ambiguous (see CellEntry), and few others.
+std::uint64_t mayBeAmbiguous(const PointLayer& l, const PointLayer& h) {
   return ambiguousFaces(l.here, l.y, l.yz, l.z) | ambiguousFaces(h.here, h.y, h.yz, h.z) |
          ambiguousFaces(l.here, l.z, h.z, h.here) | ambiguousFaces(l.y, l.yz, h.yz, h.y) |
          ambiguousFaces(l.here, l.y, h.y, h.here) | ambiguousFaces(l.z, l.yz, h.yz, h.z) |
@@ -86,24 +86,25 @@ class LowerBlocks {
 /// Counts one block. Cells up to one beyond the block on each side are reached through the neighbouring blocks.
 class BlockCounter {
  public:
-  /// \param special the cells of blocks before, to which those of this one are added.
+  /// \param multiVertex the cells of blocks before, to which those of this one are added.
   BlockCounter(const SurfaceBlocks& blocks, const BlockIndex& index, FlipRule rule, std::size_t i, BlockTopology& out,
-               std::vector<SpecialCell>& special)
+               std::vector<MultiVertexCell>& multiVertex)
       : mBlocks(blocks),
         mIndex(index),
         mRule(rule),
         mCoord(blocks.coords[i]),
         mSigns(blocks.signs[i]),
         mOut(out),
-        mSpecial(special),
-        mFirstSpecial(special.size()) {}
+        mMultiVertex(multiVertex),
+        mFirstMultiVertex(multiVertex.size()) {}
 
-  /// Sets all but the block's lower neighbours, its list of special cells and the numbers of its first vertex and quad.
+  /// Sets all but the block's lower neighbours, its list of multi-vertex cells and the numbers of its first vertex and
+  /// quad.
   void run() {
     mOut.openArcs = 0;
     findCellsAndEdges();
     if (mBlocks.open) dropIncompleteEdges();
-    findSpecialCells();
+    findMultiVertexCells();
     std::uint64_t before = 0;
     for (int x = 0; x < kBlockSize; ++x) {
       mOut.cellsBefore[x] = static_cast<std::uint16_t>(before);
@@ -127,7 +128,7 @@ class BlockCounter {
       mOut.edges[0].word[x] = below.here ^ above.here;
       mOut.edges[1].word[x] = below.here ^ below.y;
       mOut.edges[2].word[x] = below.here ^ below.z;
-      mMayBeStrict[x] = mayBeStrict(below, above);
+      mMayBeAmbiguous[x] = mayBeAmbiguous(below, above);
     }
   }
 
@@ -184,9 +185,9 @@ class BlockCounter {
     return s != nullptr && kCellTable[cellCode(*s, c[0] & 7, c[1] & 7, c[2] & 7)].flipFace != kNone;
   }
 
-  void findSpecialCells() {
+  void findMultiVertexCells() {
     for (int x = 0; x < kBlockSize; ++x)
-      for (std::uint64_t w = mOut.cells.word[x] & (mBlocks.open ? ~std::uint64_t{0} : mMayBeStrict[x]); w != 0;
+      for (std::uint64_t w = mOut.cells.word[x] & (mBlocks.open ? ~std::uint64_t{0} : mMayBeAmbiguous[x]); w != 0;
            w &= w - 1) {
         const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
         const int code = cellCode(mSigns, x, y, z);
@@ -196,7 +197,7 @@ class BlockCounter {
         if (mBlocks.open) {
           addOpenCell(x, y, z, code, flip, patches);
         } else if (patches.count > 1) {
-          addSpecial(64 * x + bit, patches, patches);
+          addMultiVertex(64 * x + bit, patches, patches);
         }
       }
   }
@@ -205,7 +206,7 @@ class BlockCounter {
     const unsigned edges = kCellTable[code].edges;
     const unsigned present = presentEdges(x, y, z, edges);
     if (present == edges) {
-      if (patches.count > 1) addSpecial(64 * x + 8 * y + z, patches, patches);
+      if (patches.count > 1) addMultiVertex(64 * x + 8 * y + z, patches, patches);
       return;
     }
     if (present == 0) return mOut.cells.reset(x, y, z);
@@ -220,18 +221,18 @@ class BlockCounter {
           open |= 1u << arcs.vertex[other];
     }
     mOut.openArcs += static_cast<std::uint32_t>(std::popcount(open));
-    addSpecial(64 * x + 8 * y + z, arcs, patches);
+    addMultiVertex(64 * x + 8 * y + z, arcs, patches);
   }
 
-  void addSpecial(int cell, const Patches& vertices, const Patches& patches) {
-    mSpecial.push_back({static_cast<std::uint16_t>(cell), vertices.count, static_cast<std::uint16_t>(extraVertices()),
-                        vertices.vertex, patches.vertex});
+  void addMultiVertex(int cell, const Patches& vertices, const Patches& patches) {
+    mMultiVertex.push_back({static_cast<std::uint16_t>(cell), vertices.count,
+                            static_cast<std::uint16_t>(extraVertices()), vertices.vertex, patches.vertex});
   }
 
-  /// Vertices beyond one per cell in the block's special cells so far.
+  /// Vertices beyond one per cell in the block's multi-vertex cells so far.
   [[nodiscard]] unsigned extraVertices() const {
-    if (mSpecial.size() == mFirstSpecial) return 0;
-    return mSpecial.back().extraBefore + mSpecial.back().vertexCount - 1u;
+    if (mMultiVertex.size() == mFirstMultiVertex) return 0;
+    return mMultiVertex.back().extraBefore + mMultiVertex.back().vertexCount - 1u;
   }
 
   const SurfaceBlocks& mBlocks;
@@ -240,29 +241,30 @@ class BlockCounter {
   const Coord mCoord;
   const BlockSigns& mSigns;
   BlockTopology& mOut;
-  std::vector<SpecialCell>& mSpecial;
-  const std::size_t mFirstSpecial;
-  std::array<std::uint64_t, kBlockSize> mMayBeStrict;
+  std::vector<MultiVertexCell>& mMultiVertex;
+  const std::size_t mFirstMultiVertex;
+  std::array<std::uint64_t, kBlockSize> mMayBeAmbiguous;
 };
 
-/// The first special cell that is not before `cell`.
-std::span<const SpecialCell>::iterator firstSpecialFrom(std::span<const SpecialCell> special, int cell) {
-  return std::lower_bound(special.begin(), special.end(), cell,
-                          [](const SpecialCell& s, int c) { return int{s.cell} < c; });
+/// The first multi-vertex cell that is not before `cell`.
+std::span<const MultiVertexCell>::iterator firstMultiVertexFrom(std::span<const MultiVertexCell> multiVertex,
+                                                                int cell) {
+  return std::lower_bound(multiVertex.begin(), multiVertex.end(), cell,
+                          [](const MultiVertexCell& s, int c) { return int{s.cell} < c; });
 }
 
 }  // namespace
 
-const SpecialCell* BlockTopology::findSpecial(int cell) const {
-  const auto it = firstSpecialFrom(special, cell);
-  return it != special.end() && it->cell == cell ? &*it : nullptr;
+const MultiVertexCell* BlockTopology::findMultiVertex(int cell) const {
+  const auto it = firstMultiVertexFrom(multiVertex, cell);
+  return it != multiVertex.end() && it->cell == cell ? &*it : nullptr;
 }
 
-std::uint64_t BlockTopology::specialOffset(int cell, int edge) const {
-  const auto it = firstSpecialFrom(special, cell);
+std::uint64_t BlockTopology::multiVertexOffset(int cell, int edge) const {
+  const auto it = firstMultiVertexFrom(multiVertex, cell);
   std::uint64_t n = 0;
-  if (it != special.begin()) n = std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
-  if (it != special.end() && it->cell == cell) n += static_cast<std::uint64_t>(it->vertex[edge]);
+  if (it != multiVertex.begin()) n = std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;
+  if (it != multiVertex.end() && it->cell == cell) n += static_cast<std::uint64_t>(it->vertex[edge]);
   return n;
 }
 
@@ -272,21 +274,22 @@ Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, Flip
   Topology t;
   t.index = BlockIndex(blocks.coords);
   t.blocks.resize(size);
-  t.special.resize((size + kChunk - 1) / kChunk);
+  t.multiVertex.resize((size + kChunk - 1) / kChunk);
   BlockProgress progress(monitor, "count", size);
-  tbb::parallel_for(std::size_t{0}, t.special.size(), [&](std::size_t chunk) {
+  tbb::parallel_for(std::size_t{0}, t.multiVertex.size(), [&](std::size_t chunk) {
     const std::size_t begin = chunk * kChunk, count = std::min(kChunk, size - begin);
-    std::vector<SpecialCell>& special = t.special[chunk];
-    std::array<std::size_t, kChunk + 1> firstSpecial{};
+    std::vector<MultiVertexCell>& multiVertex = t.multiVertex[chunk];
+    std::array<std::size_t, kChunk + 1> firstMultiVertex{};
     LowerBlocks lower(blocks.coords, begin);
     for (std::size_t i = 0; i < count; ++i) {
       BlockTopology& block = t.blocks[begin + i];
       lower.find(begin + i, block.lower);
-      BlockCounter(blocks, t.index, rule, begin + i, block, special).run();
-      firstSpecial[i + 1] = special.size();
+      BlockCounter(blocks, t.index, rule, begin + i, block, multiVertex).run();
+      firstMultiVertex[i + 1] = multiVertex.size();
     }
     for (std::size_t i = 0; i < count; ++i)
-      t.blocks[begin + i].special = std::span(special).subspan(firstSpecial[i], firstSpecial[i + 1] - firstSpecial[i]);
+      t.blocks[begin + i].multiVertex =
+          std::span(multiVertex).subspan(firstMultiVertex[i], firstMultiVertex[i + 1] - firstMultiVertex[i]);
     progress.advance(count);
   });
   for (BlockTopology& b : t.blocks) {
@@ -295,7 +298,7 @@ Topology buildTopology(const SurfaceBlocks& blocks, const Monitor& monitor, Flip
     t.vertexCount += b.vertexCount;
     t.quadCount += b.quadCount;
     t.openArcs += b.openArcs;
-    for (const SpecialCell& s : b.special) t.multiVertexCells += s.vertexCount > 1;
+    for (const MultiVertexCell& s : b.multiVertex) t.multiVertexCells += s.vertexCount > 1;
   }
   return t;
 }

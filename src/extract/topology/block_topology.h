@@ -14,10 +14,10 @@
 namespace pdc::detail {
 
 /// A cell that does not simply have one vertex for all its sign-changing edges.
-struct SpecialCell {
+struct MultiVertexCell {
   std::uint16_t cell;         ///< 64x + 8y + z in its block.
   std::uint8_t vertexCount;   ///< At least 1.
-  std::uint16_t extraBefore;  ///< Vertices beyond one per cell in the block's special cells before this one.
+  std::uint16_t extraBefore;  ///< Vertices beyond one per cell in the block's multi-vertex cells before this one.
   EdgeVertices vertex;        ///< Which of the vertices each edge with a quad belongs to.
   EdgeVertices patch;  ///< Which surface patch each sign-changing edge belongs to; vertices of one patch coincide.
 };
@@ -29,30 +29,31 @@ struct BlockTopology {
   std::array<CellMask, 3> edges;                          ///< Per axis, the edges that get a quad.
   std::array<std::uint16_t, kBlockSize> cellsBefore;      ///< Cells in the words of `cells` before word x.
   std::array<std::uint16_t, 3 * kBlockSize> quadsBefore;  ///< Of an axis and x: quads of the words of `edges` before.
-  std::array<std::int32_t, 8> lower;     ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
-  std::span<const SpecialCell> special;  ///< By ascending cell; in Topology::special.
+  std::array<std::int32_t, 8> lower;             ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
+  std::span<const MultiVertexCell> multiVertex;  ///< By ascending cell; in Topology::multiVertex.
   std::uint32_t vertexCount, quadCount;
   std::uint32_t openArcs;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
   std::uint64_t firstVertex, firstQuad;
 
-  /// The special cell entry of a cell, or null.
-  [[nodiscard]] const SpecialCell* findSpecial(int cell) const;
+  /// The multi-vertex cell entry of a cell, or null.
+  [[nodiscard]] const MultiVertexCell* findMultiVertex(int cell) const;
   /// Number in the mesh of the vertex that an edge's quad uses in a cell of this block.
   [[nodiscard]] std::uint64_t vertexAt(int x, int y, int z, int edge) const {
     const std::uint64_t below = (std::uint64_t{1} << (8 * y + z)) - 1;
     const std::uint64_t n = firstVertex + cellsBefore[x] + bitCount(cells.word[x] & below);
-    return special.empty() ? n : n + specialOffset(64 * x + 8 * y + z, edge);
+    return multiVertex.empty() ? n : n + multiVertexOffset(64 * x + 8 * y + z, edge);
   }
 
  private:
-  /// What special cells add to the number of cells before: vertices beyond the first of earlier ones, and of this one.
-  [[nodiscard]] std::uint64_t specialOffset(int cell, int edge) const;
+  /// What multi-vertex cells add to the number of cells before: vertices beyond the first of earlier ones, and of this
+  /// one.
+  [[nodiscard]] std::uint64_t multiVertexOffset(int cell, int edge) const;
 };
 
 /// The topology of all blocks, with vertices and quads numbered through in block order.
 struct Topology {
   Buffer<BlockTopology> blocks;
-  std::vector<std::vector<SpecialCell>> special;  ///< Of all blocks.
+  std::vector<std::vector<MultiVertexCell>> multiVertex;  ///< Of all blocks.
   BlockIndex index;
   std::uint64_t vertexCount = 0, quadCount = 0, openArcs = 0, multiVertexCells = 0;
 

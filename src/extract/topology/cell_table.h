@@ -133,8 +133,8 @@ struct CellEntry {
   /// The only ambiguous face of a cell with one patch whose two segments on that face belong to the same patch, or
   /// kNone. Two such cells at the same face would give four faces at one mesh edge; both are flipped then.
   std::uint8_t flipFace = kNone;
-  Patches flipped;      ///< Pairing when flipped; only where flipFace is set.
-  bool strict = false;  ///< Has several patches or an ambiguous face: not every vertex in the cell is safe.
+  Patches flipped;         ///< Pairing when flipped; only where flipFace is set.
+  bool ambiguous = false;  ///< Has several patches or an ambiguous face: not every vertex in the cell is safe.
 };
 
 constexpr CellEntry makeCellEntry(int code) {
@@ -144,8 +144,8 @@ constexpr CellEntry makeCellEntry(int code) {
   entry.patches = connect(segments(code, false), entry.edges);
   for (int f = 0; f < kFaces && entry.patches.count == 1; ++f)
     if (isAmbiguous(code, f)) entry.flipFace = static_cast<std::uint8_t>(f);
-  entry.strict = entry.patches.count > 1;
-  for (int f = 0; f < kFaces; ++f) entry.strict = entry.strict || isAmbiguous(code, f);
+  entry.ambiguous = entry.patches.count > 1;
+  for (int f = 0; f < kFaces; ++f) entry.ambiguous = entry.ambiguous || isAmbiguous(code, f);
   if (entry.flipFace != kNone) entry.flipped = connect(segments(code, true), entry.edges);
   return entry;
 }

@@ -14,13 +14,13 @@ namespace pdc::detail {
 class CellVertices {
  public:
   CellVertices(const Topology& topology, const BlockTopology& own) {
-    mAllSimple = own.special.empty();
+    mAllSimple = own.multiVertex.empty();
     add(own, 0, 0, 0);
     // Edges have cells about them that lie below on two axes at most.
     for (int i = 1; i < 7; ++i) {
       if (own.lower[i] == BlockIndex::kMissing) continue;
       const BlockTopology& b = topology.blocks[own.lower[i]];
-      mAllSimple = mAllSimple && b.special.empty();
+      mAllSimple = mAllSimple && b.multiVertex.empty();
       add(b, i >> 2, i >> 1 & 1, i & 1);
     }
   }

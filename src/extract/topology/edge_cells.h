@@ -9,10 +9,10 @@ namespace pdc::detail {
 
 /// The four cells about a lattice edge along `axis`, counter-clockwise seen from its high end: steps back along the
 /// next axis and the one after.
-inline constexpr int kRing[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+inline constexpr int kCellsAboutEdge[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 /// The number, within a cell, of the lattice edge whose k-th ring cell it is.
-constexpr int ringEdge(int axis, int k) { return 4 * axis + kRing[k][0] + 2 * kRing[k][1]; }
+constexpr int edgeInCell(int axis, int k) { return 4 * axis + kCellsAboutEdge[k][0] + 2 * kCellsAboutEdge[k][1]; }
 
 /// A cell of a block.
 struct CellRef {
@@ -20,12 +20,12 @@ struct CellRef {
   int x, y, z;
 };
 
-constexpr CellRef cellOf(const LooseVertex& v) { return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7}; }
+constexpr CellRef cellOf(const SuspectVertex& v) { return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7}; }
 
 /// Finds one's way between cells, lattice edges and their quads in a finished topology.
-class QuadRings {
+class EdgeCells {
  public:
-  QuadRings(const SurfaceBlocks& blocks, const Topology& topology) : mBlocks(blocks), mTopology(topology) {}
+  EdgeCells(const SurfaceBlocks& blocks, const Topology& topology) : mBlocks(blocks), mTopology(topology) {}
 
   /// Number of the edge's quad.
   [[nodiscard]] std::uint64_t face(const EdgeRef& e) const {
@@ -34,9 +34,9 @@ class QuadRings {
     return b.firstQuad + b.quadsBefore[kBlockSize * e.axis() + e.x()] +
            bitCount(b.edges[e.axis()].word[e.x()] & before);
   }
-  /// Cells about the edge, in ring order.
+  /// Cells about the edge, in order about the edge.
   [[nodiscard]] std::array<CellRef, 4> cells(const EdgeRef& e) const;
-  /// Vertices of the edge's quad, in ring order.
+  /// Vertices of the edge's quad, in order about the edge.
   [[nodiscard]] Quad vertices(const EdgeRef& e) const;
   /// Lattice coordinates of the edge's low end.
   [[nodiscard]] Coord low(const EdgeRef& e) const;
@@ -52,7 +52,7 @@ class QuadRings {
   void forEachEdge(const CellRef& c, Visit&& visit) const;
   /// Calls visit(EdgeRef) for each edge whose quad has the vertex.
   template <typename Visit>
-  void forEachEdgeAt(const LooseVertex& v, Visit&& visit) const;
+  void forEachEdgeAt(const SuspectVertex& v, Visit&& visit) const;
   /// The block of a block coordinate, or BlockIndex::kMissing.
   [[nodiscard]] std::int32_t find(const Coord& block) const { return mTopology.index.find(block); }
 
@@ -68,7 +68,7 @@ class QuadRings {
 };
 
 template <typename Visit>
-void QuadRings::forEachEdge(const CellRef& c, Visit&& visit) const {
+void EdgeCells::forEachEdge(const CellRef& c, Visit&& visit) const {
   for (unsigned bits = kCellTable[code(c)].edges; bits != 0; bits &= bits - 1) {
     const int e = std::countr_zero(bits), corner = edgeLowCorner(e), axis = edgeAxis(e);
     const int x = c.x + (corner & 1), y = c.y + (corner >> 1 & 1), z = c.z + (corner >> 2);
@@ -84,7 +84,7 @@ void QuadRings::forEachEdge(const CellRef& c, Visit&& visit) const {
 }
 
 template <typename Visit>
-void QuadRings::forEachEdgeAt(const LooseVertex& v, Visit&& visit) const {
+void EdgeCells::forEachEdgeAt(const SuspectVertex& v, Visit&& visit) const {
   const CellRef c = cellOf(v);
   forEachEdge(c, [&](const EdgeRef& e, int edge) {
     if (block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) visit(e);

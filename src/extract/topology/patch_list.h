@@ -17,16 +17,16 @@ class PatchList {
   [[nodiscard]] const SurfacePatch& operator[](std::size_t i) const { return mPatches[i]; }
   [[nodiscard]] std::span<const SurfacePatch> patches() const { return mPatches; }
   /// Whether patch i is of a cell in which not every place is safe (see CellEntry), or of several.
-  [[nodiscard]] bool strict(std::size_t i) const { return mStrict[i] != 0; }
-  [[nodiscard]] bool anyStrict() const { return mAnyStrict; }
-  /// Ascending, the patches of special cells (see BlockTopology). Any other has all of its cell's crossings.
-  [[nodiscard]] std::span<const std::uint32_t> special() const { return mSpecial; }
+  [[nodiscard]] bool ambiguous(std::size_t i) const { return mAmbiguous[i] != 0; }
+  [[nodiscard]] bool anyAmbiguous() const { return mAnyAmbiguous; }
+  /// Ascending, the patches of multi-vertex cells (see BlockTopology). Any other has all of its cell's crossings.
+  [[nodiscard]] std::span<const std::uint32_t> multiVertex() const { return mMultiVertex; }
 
  private:
   std::vector<SurfacePatch> mPatches;
-  std::vector<std::uint8_t> mStrict;
-  std::vector<std::uint32_t> mSpecial;
-  bool mAnyStrict = false;
+  std::vector<std::uint8_t> mAmbiguous;
+  std::vector<std::uint32_t> mMultiVertex;
+  bool mAnyAmbiguous = false;
 };
 
 }  // namespace pdc::detail

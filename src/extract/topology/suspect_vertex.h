@@ -11,26 +11,26 @@
 
 namespace pdc::detail {
 
-/// A vertex whose faces may intersect others: it is outside its cell, or its cell is a strict one.
-struct LooseVertex {
+/// A vertex whose faces may intersect others: it is outside its cell, or its cell is an ambiguous one.
+struct SuspectVertex {
   std::uint64_t vertex;
   std::int32_t block;
   std::uint16_t cell;  ///< 64x + 8y + z.
   Vec3f place;         ///< In lattice units from the centre of the cell; at first where its quadric wants it.
-  /// Where it is safe: in its cell, and in a strict cell among its own patch's crossings.
+  /// Where it is safe: in its cell, and in an ambiguous cell among its own patch's crossings.
   Vec3f safe;
   /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where there
   /// is none.
   std::array<Vec3f, 4> creaseNormals{};
 };
 
-/// Finds loose vertices by their numbers.
-class LooseIndex {
+/// Finds suspect vertices by their numbers.
+class SuspectIndex {
  public:
-  /// \param loose sorted by vertex.
-  explicit LooseIndex(const std::vector<LooseVertex>& loose)
-      : mWords(loose.empty() ? 0 : loose.back().vertex / 64 + 1) {
-    for (const LooseVertex& v : loose) mWords[v.vertex / 64].bits |= std::uint64_t{1} << v.vertex % 64;
+  /// \param suspect sorted by vertex.
+  explicit SuspectIndex(const std::vector<SuspectVertex>& suspect)
+      : mWords(suspect.empty() ? 0 : suspect.back().vertex / 64 + 1) {
+    for (const SuspectVertex& v : suspect) mWords[v.vertex / 64].bits |= std::uint64_t{1} << v.vertex % 64;
     std::size_t count = 0;
     for (Word& w : mWords) {
       w.before = count;
@@ -50,7 +50,7 @@ class LooseIndex {
  private:
   struct Word {
     std::uint64_t bits = 0;  ///< Of 64 vertices.
-    std::size_t before = 0;  ///< Loose ones in earlier words.
+    std::size_t before = 0;  ///< Suspect ones in earlier words.
   };
   std::vector<Word> mWords;
 };
@@ -68,12 +68,12 @@ struct EdgeRef {
 };
 
 /// What one thread found that needs a closer look.
-struct Doubts {
-  std::vector<LooseVertex> vertices;
+struct Suspects {
+  std::vector<SuspectVertex> vertices;
   std::vector<EdgeRef> quads;  ///< None of whose diagonals passes the quick test.
   std::uint64_t forcedDiagonals = 0;
 
-  void append(const Doubts& d) {
+  void append(const Suspects& d) {
     vertices.insert(vertices.end(), d.vertices.begin(), d.vertices.end());
     quads.insert(quads.end(), d.quads.begin(), d.quads.end());
     forcedDiagonals += d.forcedDiagonals;

@@ -37,7 +37,7 @@ constexpr double kFlatness = 1e-3, kFit = 2;
 /// Exact normals tell of a crease if a vertex misses their planes by no more, in voxels; those that agree to within 26°
 /// are of one side.
 constexpr double kExact = 0.01;
-constexpr float kSameSide = 0.9F;
+constexpr float kSameSheet = 0.9F;
 
 float reach(const Vec3f& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
 
@@ -133,7 +133,7 @@ struct BlockVertexSolver::Scratch {
 
   void place(const BlockState& block) {
     PatchLanes& l = lanes;
-    const bool promised = block.out.doubts != nullptr;
+    const bool promised = block.out.suspects != nullptr;
     const auto inCell = static_cast<float>(block.cellHalfSize);
     const float snapped = promised ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
     forEachLane([&](int i) {
@@ -189,7 +189,7 @@ struct BlockVertexSolver::Scratch {
 
   /// Solves those of a batch in double that need it.
   void solveSomeAlone(const BlockState& block, std::size_t first, int used) {
-    const bool promised = block.out.doubts != nullptr;
+    const bool promised = block.out.suspects != nullptr;
     const auto limit = static_cast<float>(promised ? block.cellHalfSize + kSnap : solver.halfSize());
     // In the lower half those beyond the limit or unsolved, in the upper one those outside their cells.
     constexpr std::uint32_t kOutside = 1u << 16;
@@ -200,12 +200,12 @@ struct BlockVertexSolver::Scratch {
       count[i] = i < used ? (alone != 0 ? 1 : outside) : 0;
     });
     const std::uint32_t total = foldLanes(count, [](auto& a, const auto& b) { a += b; });
-    if (total % kOutside == 0 && planes.patches.empty() && !(promised && patches.anyStrict())) {
+    if (total % kOutside == 0 && planes.patches.empty() && !(promised && patches.anyAmbiguous())) {
       block.counts.outOfCell += total / kOutside;
       return;
     }
     for (int lane = 0; lane < used; ++lane)
-      if (count[lane] == 1 || (promised && patches.strict(first + lane)) || planes.find(first + lane) != nullptr) {
+      if (count[lane] == 1 || (promised && patches.ambiguous(first + lane)) || planes.find(first + lane) != nullptr) {
         solveAlone(block, first + lane);
       } else {
         block.counts.outOfCell += count[lane] / kOutside;
@@ -240,17 +240,17 @@ struct BlockVertexSolver::Scratch {
     block.counts.moved += v.moved;
     const std::uint64_t vertex = block.firstVertex + i;
     Vec3f x = vecCast<float>(v.x);
-    if (block.out.doubts != nullptr) x = keepOrNote(block, i, vertex, v.x);
+    if (block.out.suspects != nullptr) x = keepOrNote(block, i, vertex, v.x);
     block.out.positions[vertex] = worldPosition(block, patch, vecCast<double>(x));
     (*block.out.errors)[vertex] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
   }
 
-  /// Puts a vertex whose free place is `x` into its cell where that costs nothing; or notes it as loose. \returns where
-  /// it is now.
+  /// Puts a vertex whose free place is `x` into its cell where that costs nothing; or notes it as suspect. \returns
+  /// where it is now.
   Vec3f keepOrNote(const BlockState& block, std::size_t i, std::uint64_t vertex, const Vec3d& x) {
     Vec3f free = vecCast<float>(x);
     Vec3d safe{};
-    if (patches.strict(i)) {
+    if (patches.ambiguous(i)) {
       safe = meanCrossing();
     } else if (reach(free) <= block.cellHalfSize + kSnap) {
       clampToCube(free, block.cellHalfSize);
@@ -262,7 +262,7 @@ struct BlockVertexSolver::Scratch {
         return vecCast<float>(safe);
     }
     clampToCube(safe, block.cellHalfSize);
-    block.out.doubts->vertices.push_back(
+    block.out.suspects->vertices.push_back(
         {vertex, block.index, patches[i].cell, free, vecCast<float>(safe), creaseNormals(block, x)});
     return free;
   }
@@ -277,7 +277,7 @@ struct BlockVertexSolver::Scratch {
       const double l = length(n);
       if (!(l > 0)) return;
       const Vec3f normal = vecCast<float>(n * (1 / l));
-      const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSameSide; };
+      const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSameSheet; };
       if (count < normals.size() && std::none_of(normals.begin(), normals.begin() + count, alike))
         normals[count++] = normal;
     };
@@ -352,8 +352,9 @@ BlockVertexSolver::BlockVertexSolver(const HermiteSource& source, const SigmaNor
 
 BlockVertexSolver::~BlockVertexSolver() = default;
 
-void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, const Topology& topology,
-                            const VertexOutput& out, VertexCounts& counts) {
+void BlockVertexSolver::run(std::size_t index, const Surface& surface, const VertexOutput& out, VertexCounts& counts) {
+  const SurfaceBlocks& blocks = surface.blocks;
+  const Topology& topology = surface.topology;
   const Coord& block = blocks.coords[index];
   const BlockSigns& signs = blocks.signs[index];
   const EdgeIndex edges(signs);
@@ -362,7 +363,7 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
   const SigmaNormal& sigma = mScratch->solver.sigma();
   mScratch->Sigma_n = Scratch::matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());
   Scratch& scratch = *mScratch;
-  if (index + kAhead < blocks.coords.size()) mSource.expect(blocks.coords[index + kAhead]);
+  if (index + kAhead < blocks.coords.size()) mSource.prefetch(blocks.coords[index + kAhead]);
   mSource.fillHermite(block, signs, edges, scratch.hermite);
   counts.crossings += topology.blocks[index].quadCount;
   counts.withoutNormal += scratch.crossings.fill(scratch.hermite, edges, metric, mSource.map(), origin, scratch.level);
@@ -380,13 +381,11 @@ void BlockVertexSolver::run(std::size_t index, const SurfaceBlocks& blocks, cons
                          edges,
                          metric,
                          origin,
-                         out.doubts != nullptr ? cellHalfSize(mSource.map(), block) : 0.5,
+                         out.suspects != nullptr ? cellHalfSize(mSource.map(), block) : 0.5,
                          out,
                          counts};
   // Each way of choosing σn has a function of its own, small enough for the compiler to do its best.
-  const auto solveWith = [&](const auto& sigmaOf) {
-    forEachBlock(scratch.level, 1, [&](std::size_t) { scratch.run(state, sigmaOf); });
-  };
+  const auto solveWith = [&](const auto& sigmaOf) { withSimd(scratch.level, [&] { scratch.run(state, sigmaOf); }); };
   if (!sigma.ofPatches()) {
     solveWith([](const SymMat3<float>&, float) { return 1.0F; });
   } else if (metric.identity) {

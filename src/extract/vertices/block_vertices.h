@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "extract/topology/block_topology.h"
+#include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
 #include "extract/vertices/vertex_errors.h"
 #include "extract/vertices/vertex_solver.h"
@@ -13,7 +13,6 @@ namespace pdc::detail {
 
 struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
-  double normalNoise = 0;  ///< See ContourReport; the same for all.
 
   VertexCounts& operator+=(const VertexCounts& c) {
     crossings += c.crossings;
@@ -29,7 +28,7 @@ struct VertexOutput {
   Vec3f* positions;
   Vec3f* normals;
   VertexErrors* errors;
-  Doubts* doubts;  ///< Null: wherever a vertex comes to lie is right.
+  Suspects* suspects;  ///< Null: wherever a vertex comes to lie is right.
 };
 
 /// Samples and solves the vertices of one block after another. For one thread; large: keep it off the stack.
@@ -42,8 +41,7 @@ class BlockVertexSolver {
   BlockVertexSolver& operator=(const BlockVertexSolver&) = delete;
 
   /// Block `index` of the list.
-  void run(std::size_t index, const SurfaceBlocks& blocks, const Topology& topology, const VertexOutput& out,
-           VertexCounts& counts);
+  void run(std::size_t index, const Surface& surface, const VertexOutput& out, VertexCounts& counts);
 
  private:
   struct Scratch;

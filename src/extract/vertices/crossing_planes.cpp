@@ -22,8 +22,8 @@ std::size_t countWithoutNormal(const HermiteBlock& hermite, const EdgeIndex& edg
 std::size_t CrossingPlanes::fill(const HermiteBlock& hermite, const EdgeIndex& edges, const CellMetric& metric,
                                  const LatticeMap& map, const Vec3d& origin, SimdLevel level) {
   alignas(64) int none[kLanes]{};
-  const std::size_t blocks = blockCount(static_cast<std::size_t>(edges.size()));
-  forEachBlock(level, blocks, [&](std::size_t block) {
+  const std::size_t blocks = batchCount(static_cast<std::size_t>(edges.size()));
+  forEachBatch(level, blocks, [&](std::size_t block) {
     const std::size_t first = block * kLanes;
     for (std::size_t i = first; i < first + kLanes; i += 4)
       transpose4({&hermite.nx[i], &hermite.ny[i], &hermite.nz[i], &hermite.t[i]}, mRow[i].data(), 4);

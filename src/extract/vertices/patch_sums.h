@@ -39,12 +39,12 @@ class PatchSums {
     std::fill_n(mRow.begin(), patches.size() + 1, Row{});
     mNumber.clear();
     for (std::size_t i = 0; i < patches.size(); ++i) mNumber.set(patches[i].cell, static_cast<std::uint16_t>(i + 1));
-    for (const std::uint32_t i : patches.special()) mNumber.set(patches[i].cell, 0);
+    for (const std::uint32_t i : patches.multiVertex()) mNumber.set(patches[i].cell, 0);
     const Terms<kNoisy> terms(crossings, G);
     addAxis<0>(terms, edges);
     addAxis<1>(terms, edges);
     addAxis<2>(terms, edges);
-    for (const std::uint32_t i : patches.special())
+    for (const std::uint32_t i : patches.multiVertex())
       forEachEdge(patches[i], edges, [&](int e, int number) { addTo(mRow[i + 1], terms, e, number); });
     turnIntoLanes(patches.size());
   }
@@ -132,8 +132,8 @@ class PatchSums {
 
   /// All of them before any is used: what was just put together in memory comes late.
   void turnIntoLanes(std::size_t count) {
-    mLanes.resize(std::max(mLanes.size(), blockCount(count)));
-    for (std::size_t first = 0; first < kLanes * blockCount(count); first += 4) {
+    mLanes.resize(std::max(mLanes.size(), batchCount(count)));
+    for (std::size_t first = 0; first < kLanes * batchCount(count); first += 4) {
       const auto from = [&](std::size_t i) {
         return reinterpret_cast<const float*>(&mRow[std::min(first + i, count - 1) + 1]);
       };

@@ -16,12 +16,12 @@ struct VertexError {
   Vec3f b;
 };
 
-/// The errors of a run of consecutive vertices that moves on: a ring, in which later ones take the place of earlier
-/// ones.
+/// The errors of a run of consecutive vertices that moves on: a circular buffer, in which later ones take the place of
+/// earlier ones.
 class VertexErrors {
  public:
   /// Where vertices have their places.
-  struct Ring {
+  struct CircularIndex {
     std::uint32_t size, base;  ///< The vertex at place 0; the run does not begin before it.
 
     [[nodiscard]] std::uint32_t place(std::uint32_t vertex) const {
@@ -32,26 +32,26 @@ class VertexErrors {
 
   /// \param longest run of vertices whose errors are needed at once.
   explicit VertexErrors(std::size_t longest)
-      : mErrors(std::max<std::size_t>(longest, 1)), mRing{static_cast<std::uint32_t>(mErrors.size()), 0} {}
+      : mErrors(std::max<std::size_t>(longest, 1)), mIndex{static_cast<std::uint32_t>(mErrors.size()), 0} {}
 
   /// From now on `first` is the first of the run.
   void moveOn(std::uint64_t first) {
-    while (static_cast<std::uint32_t>(first) - mRing.base >= mRing.size) mRing.base += mRing.size;
+    while (static_cast<std::uint32_t>(first) - mIndex.base >= mIndex.size) mIndex.base += mIndex.size;
   }
   [[nodiscard]] VertexError& operator[](std::uint64_t vertex) {
-    return mErrors[mRing.place(static_cast<std::uint32_t>(vertex))];
+    return mErrors[mIndex.place(static_cast<std::uint32_t>(vertex))];
   }
   /// Those of `count` vertices from `first` on, if they lie in a row; otherwise null.
   [[nodiscard]] VertexError* run(std::uint64_t first, std::uint32_t count) {
-    const std::uint32_t place = mRing.place(static_cast<std::uint32_t>(first));
-    return mRing.size - place >= count ? &mErrors[place] : nullptr;
+    const std::uint32_t place = mIndex.place(static_cast<std::uint32_t>(first));
+    return mIndex.size - place >= count ? &mErrors[place] : nullptr;
   }
   [[nodiscard]] const VertexError* data() const { return mErrors.data(); }
-  [[nodiscard]] const Ring& ring() const { return mRing; }
+  [[nodiscard]] const CircularIndex& index() const { return mIndex; }
 
  private:
   Buffer<VertexError> mErrors;
-  Ring mRing;
+  CircularIndex mIndex;
 };
 
 }  // namespace pdc::detail

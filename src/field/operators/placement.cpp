@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "field/arguments.h"
-#include "field/interval_arithmetic.h"
 #include "field/image_box.h"
+#include "field/interval_arithmetic.h"
 #include "pdc/field/operators.h"
 
 namespace pdc {

@@ -95,7 +95,7 @@ class SimplexNoise final : public Field {
   /// Adds values, and gradients if they are wanted, to f, which is zero.
   template <bool kGradients = false>
   void addOctaves(const Lanes& p, Lanes& f) const {
-    detail::forEachBlock(mLevel, mOctaves.size(), [&](std::size_t i) {
+    detail::forEachBatch(mLevel, mOctaves.size(), [&](std::size_t i) {
       const double frequency = mOctaves[i].frequency, amplitude = mOctaves[i].amplitude;
       const std::uint32_t seed = mOctaves[i].seed;
       detail::forEachLane([&](int lane) {

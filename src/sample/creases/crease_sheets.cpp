@@ -12,16 +12,16 @@
 namespace pdc::detail {
 namespace {
 
-/// Normals within 26° of a side's mean belong to it.
-constexpr float kSameSide = 0.9F;
-/// Samples lighter than this found no side of their own.
+/// Normals within 26° of a sheet's mean belong to it.
+constexpr float kSameSheet = 0.9F;
+/// Samples lighter than this found no sheet of their own.
 constexpr float kLeastSeed = 0.02F;
-/// Normals noisier than this do not say best how a side lies.
+/// Normals noisier than this do not say best how a sheet lies.
 constexpr double kNoisy = 0.01;
 /// Curvatures that are common, per voxel: noise in the normals that would look larger is smoothed away.
 constexpr double kUsualBend = 0.1;
 
-/// Sums over the samples of a side: of their weights, and, weighed by their trust, of ones, normals n, feet f, the six
+/// Sums over the samples of a sheet: of their weights, and, weighed by their trust, of ones, normals n, feet f, the six
 /// products f fᵀ and the nine n fᵀ.
 struct Moments {
   enum { kWeight, kTrust, kNormal, kFoot = kNormal + 3, kFootFoot = kFoot + 3, kNormalFoot = kFootFoot + 6 };
@@ -38,7 +38,7 @@ static_assert(SurfaceSamples::kCapacity / kLanes < 64);
 
 LiveBlocks allBlocks(const SurfaceSamples& samples) { return (LiveBlocks{1} << samples.blocks()) - 1; }
 
-/// The most trusted sample that may found a side, of several the first; -1 if there is none.
+/// The most trusted sample that may found a sheet, of several the first; -1 if there is none.
 int findSeed(const SurfaceSamples& samples, LiveBlocks live) {
   alignas(64) std::array<float, kLanes> most{};
   alignas(64) std::array<std::int32_t, kLanes> at{};
@@ -76,7 +76,7 @@ Vec3f meanNormal(SurfaceSamples& samples, LiveBlocks live, const Vec3f& mean) {
     const LanePointers p(samples, std::countr_zero(live));
     forEachLane([&](int lane) {
       const Vec3f n = p.normal(lane);
-      const float t = dot(n, mean) > kSameSide ? p.column[SurfaceSamples::kTrust][lane] : 0.0F;
+      const float t = dot(n, mean) > kSameSheet ? p.column[SurfaceSamples::kTrust][lane] : 0.0F;
       sum[0][lane] += n.x * t;
       sum[1][lane] += n.y * t;
       sum[2][lane] += n.z * t;
@@ -100,7 +100,7 @@ void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, Mome
     float* own = share + block * kLanes;
     forEachLane([&](int lane) {
       const Vec3f n = p.normal(lane);
-      const bool like = dot(n, mean) > kSameSide;
+      const bool like = dot(n, mean) > kSameSheet;
       const float w = like ? weight[lane] : 0.0F, t = like ? trust[lane] : 0.0F;
       weight[lane] = like ? 0.0F : weight[lane];
       trust[lane] = like ? 0.0F : trust[lane];
@@ -127,89 +127,90 @@ void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, Mome
 }
 
 /// The plane through the mean foot with the mean normal.
-SurfaceSide meanSide(const Moments& moments) {
+CreaseSheet meanSheet(const Moments& moments) {
   const double trust = moments.sum[Moments::kTrust];
-  SurfaceSide side{};
-  side.weight = moments.sum[Moments::kWeight];
-  side.center = moments.vector(Moments::kFoot) * (1 / trust);
+  CreaseSheet sheet{};
+  sheet.weight = moments.sum[Moments::kWeight];
+  sheet.center = moments.vector(Moments::kFoot) * (1 / trust);
   const Vec3d sum = moments.vector(Moments::kNormal);
-  side.normal = sum * (1 / length(sum));
-  return side;
+  sheet.normal = sum * (1 / length(sum));
+  return sheet;
 }
 
 /// Bends a plane as the change of the normals says.
-void bendSide(const Moments& moments, double normalNoise, SurfaceSide& side) {
+void bendSheet(const Moments& moments, double normalNoise, CreaseSheet& sheet) {
   const auto& sum = moments.sum;
   const double trust = sum[Moments::kTrust];
   // Least squares for n(p) − mean = H(p − center), with a ridge.
   const double* ff = &sum[Moments::kFootFoot];
-  const SymMat3<double> spread = SymMat3<double>{ff[0], ff[1], ff[2], ff[3], ff[4], ff[5]} - outer(side.center) * trust;
+  const SymMat3<double> spread =
+      SymMat3<double>{ff[0], ff[1], ff[2], ff[3], ff[4], ff[5]} - outer(sheet.center) * trust;
   const double noise = normalNoise / kUsualBend;
   const SymMat3<double> damped = spread.plusDiagonal((0.01 + noise * noise) * trust);
   const Vec3d normals = moments.vector(Moments::kNormal);
   for (int k = 0; k < 3; ++k) {
-    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - side.center * normals[k];
+    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - sheet.center * normals[k];
     const auto row = solveLdlt(damped, turn);
-    side.bend.row[k] = row ? *row : Vec3d{};
+    sheet.bend.row[k] = row ? *row : Vec3d{};
   }
   // Only the tangential, symmetric part can be curvature.
-  const Vec3d n = side.normal;
+  const Vec3d n = sheet.normal;
   Mat3d P;
   for (int k = 0; k < 3; ++k) P.row[k] -= n * n[k];
-  const Mat3d t = side.bend.transposed();
-  for (int k = 0; k < 3; ++k) side.bend.row[k] = (side.bend.row[k] + t.row[k]) * 0.5;
-  side.bend = P * side.bend * P;
+  const Mat3d t = sheet.bend.transposed();
+  for (int k = 0; k < 3; ++k) sheet.bend.row[k] = (sheet.bend.row[k] + t.row[k]) * 0.5;
+  sheet.bend = P * sheet.bend * P;
   // The mean of ½ dᵀHd is half the trace of H times the spread.
-  const Mat3d& H = side.bend;
+  const Mat3d& H = sheet.bend;
   const double bent = H.row[0].x * spread.xx + H.row[1].y * spread.yy + H.row[2].z * spread.zz +
                       2 * (H.row[0].y * spread.xy + H.row[0].z * spread.xz + H.row[1].z * spread.yz);
-  side.offset = 0.5 * bent / trust;
+  sheet.offset = 0.5 * bent / trust;
 }
 
 }  // namespace
 
-void SurfaceSides::dropLight(double share) {
+void CreaseSheets::dropLight(double share) {
   double heaviest = 0;
-  for (const SurfaceSide& s : all()) heaviest = std::max(heaviest, s.weight);
+  for (const CreaseSheet& s : all()) heaviest = std::max(heaviest, s.weight);
   for (int i = count - 1; i >= 0; --i)
-    if (side[i].weight < share * heaviest) drop(i);
+    if (sheet[i].weight < share * heaviest) drop(i);
 }
 
-SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
-  SurfaceSides sides;
+CreaseSheets findSheets(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
+  CreaseSheets sheets;
   alignas(64) std::array<float, SurfaceSamples::kCapacity> share;
   LiveBlocks live = allBlocks(samples);
   const bool noisy = normalNoise > kNoisy;
-  forEachBlock(level, 1, [&](std::size_t) {
-    while (sides.count < SurfaceSides::kMax) {
+  withSimd(level, [&] {
+    while (sheets.count < CreaseSheets::kMax) {
       const int seed = findSeed(samples, live);
       if (seed < 0) break;
       const Vec3f founder = samples.normal(seed);
       Vec3f mean = meanNormal(samples, live, meanNormal(samples, live, founder));
-      if (!(dot(founder, mean) > kSameSide)) mean = founder;
+      if (!(dot(founder, mean) > kSameSheet)) mean = founder;
       Moments moments;
       if (noisy) std::fill_n(share.begin(), samples.blocks() * kLanes, 0.0F);
       takeLike(samples, live, mean, moments, share.data());
-      SurfaceSide& side = sides.side[sides.count++];
-      side = meanSide(moments);
+      CreaseSheet& sheet = sheets.sheet[sheets.count++];
+      sheet = meanSheet(moments);
       if (noisy) {
-        side = fitNoisySide(samples, share.data(), side, normalNoise, level);
+        sheet = fitNoisySheet(samples, share.data(), sheet, normalNoise, level);
       } else {
-        bendSide(moments, normalNoise, side);
+        bendSheet(moments, normalNoise, sheet);
       }
     }
   });
-  return sides;
+  return sheets;
 }
 
-Vec3d meetingPoint(std::span<const SurfaceSide> sides, const Vec3d& start, double sigma) {
+Vec3d meetingPoint(std::span<const CreaseSheet> sheets, const Vec3d& start, double sigma) {
   constexpr int kSteps = 3;
   Vec3d y = start;
   for (int step = 0; step < kSteps; ++step) {
-    const double ridge = sigma * sigma * static_cast<double>(sides.size());
+    const double ridge = sigma * sigma * static_cast<double>(sheets.size());
     SymMat3<double> A = SymMat3<double>::identity() * ridge;
     Vec3d b = (start - y) * ridge;
-    for (const SurfaceSide& s : sides) {
+    for (const CreaseSheet& s : sheets) {
       const double w = std::min(s.weight, 1.0);
       const Vec3d g = s.gradient(y);
       A += outer(g) * w;

@@ -8,8 +8,8 @@
 
 namespace pdc::detail {
 
-/// One smooth side of the surface near a cell, to second order: {y : n·d + ½ dᵀHd = offset} with d = y − center.
-struct SurfaceSide {
+/// One smooth sheet of the surface near a cell, to second order: {y : n·d + ½ dᵀHd = offset} with d = y − center.
+struct CreaseSheet {
   Vec3d center;  ///< Mean of the points it was made of.
   Vec3d normal;  ///< At the centre; of unit length.
   Mat3d bend;    ///< How the normal changes along the surface, H; symmetric.
@@ -24,28 +24,28 @@ struct SurfaceSide {
   }
 };
 
-/// The sides that meet near a cell.
-struct SurfaceSides {
+/// The sheets that meet near a cell.
+struct CreaseSheets {
   static constexpr int kMax = 4;
-  std::array<SurfaceSide, kMax> side;
+  std::array<CreaseSheet, kMax> sheet;
   int count = 0;
 
-  [[nodiscard]] std::span<const SurfaceSide> all() const { return {side.data(), static_cast<std::size_t>(count)}; }
-  void drop(int i) { side[i] = side[--count]; }
-  /// Drops the sides that weigh less than `share` of the heaviest.
+  [[nodiscard]] std::span<const CreaseSheet> all() const { return {sheet.data(), static_cast<std::size_t>(count)}; }
+  void drop(int i) { sheet[i] = sheet[--count]; }
+  /// Drops the sheets that weigh less than `share` of the heaviest.
   void dropLight(double share);
 };
 
 /// One-sided slopes of second order have this many times the noise of values.
 inline constexpr double kNormalNoise = 4;
 
-/// Sorts samples into sides by their normals: the heaviest first, then what is left of them. Spoils the samples'
-/// weights. The sides are in the space of the samples' feet. \param normalNoise expected of each component of a normal.
-/// \param level changes no bit of them.
-[[nodiscard]] SurfaceSides findSides(SurfaceSamples& samples, double normalNoise, SimdLevel level = bestSimdLevel());
+/// Sorts samples into sheets by their normals: the heaviest first, then what is left of them. Spoils the samples'
+/// weights. The sheets are in the space of the samples' feet. \param normalNoise expected of each component of a
+/// normal. \param level changes no bit of them.
+[[nodiscard]] CreaseSheets findSheets(SurfaceSamples& samples, double normalNoise, SimdLevel level = bestSimdLevel());
 
-/// The point that is nearest to all sides, by their weights (at most 1 each), and, as far as they leave it open, to
+/// The point that is nearest to all sheets, by their weights (at most 1 each), and, as far as they leave it open, to
 /// `start`. \param sigma as σn of their normals.
-[[nodiscard]] Vec3d meetingPoint(std::span<const SurfaceSide> sides, const Vec3d& start, double sigma);
+[[nodiscard]] Vec3d meetingPoint(std::span<const CreaseSheet> sheets, const Vec3d& start, double sigma);
 
 }  // namespace pdc::detail

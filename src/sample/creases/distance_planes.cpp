@@ -22,27 +22,27 @@ constexpr float kHalfEvenCos = 0.99976F;
 
 PlaneTolerance tolerance(double noise) {
   const auto n = static_cast<float>(noise);
-  return {.error = 0.04F + 2 * n, .usual = 0.001F + 2 * n, .kink = 0.005F + n};
+  return {.error = 0.04F + 2 * n, .usual = 0.001F + 2 * n, .jump = 0.005F + n};
 }
 
 /// Where slopes from both sides differ by less, at all corners of a cell, no crease turns by more than 20° there, or
 /// noise or texture hide it. Plain gradients miss one that turns by 30° by 0.06 voxel. With 100 times the texture
 /// vertices of an organic mesh were off by 1.7 times as much as with plain gradients, with 200 times by as much.
-float creaseKink(const DistanceModel& model) {
+float creaseJump(const DistanceModel& model) {
   return static_cast<float>(std::max({0.2, 0.01 + 2 * model.noise, 200 * model.texture}));
 }
 
-/// A side this far from where all sides meet, in voxels, does not meet them.
+/// A sheet this far from where all sheets meet, in voxels, does not meet them.
 double missed(double noise) { return 0.1 + 2 * noise; }
 
-/// How far outside a cell, in voxels, sides may meet that no crossing of it lies on. Without noise the crossings are
+/// How far outside a cell, in voxels, sheets may meet that no crossing of it lies on. Without noise the crossings are
 /// reliable, and vertices that leave their cells for nothing fold faces.
 double margin(double noise) { return std::min(0.5, 5 * noise); }
 
-/// σn of sides: they are made of many samples.
-float sideSigma(double noise) { return static_cast<float>(std::max(0.01, 0.7 * noise)); }
+/// σn of sheets: they are made of many samples.
+float sheetSigma(double noise) { return static_cast<float>(std::max(0.01, 0.7 * noise)); }
 
-/// Sides that weigh less than this share of the heaviest are samples that noise has turned aside.
+/// Sheets that weigh less than this share of the heaviest are samples that noise has turned aside.
 double leastShare(double noise) { return std::min(0.1, 10 * noise * noise); }
 
 /// What is expected of a sample's normal.
@@ -56,7 +56,7 @@ bool allEven(const SampledBlock& block) {
   const HermiteBlock& h = block.hermite;
   const int count = block.edges.size();
   alignas(64) std::array<std::int32_t, kLanes> apart{};
-  forEachBlock(bestSimdLevel(), blockCount(static_cast<std::size_t>(count)), [&](std::size_t i) {
+  forEachBatch(bestSimdLevel(), batchCount(static_cast<std::size_t>(count)), [&](std::size_t i) {
     const Vec3f first{h.nx[0], h.ny[0], h.nz[0]};
     const float *nx = &h.nx[i * kLanes], *ny = &h.ny[i * kLanes], *nz = &h.nz[i * kLanes];
     const int left = count - static_cast<int>(i) * kLanes;
@@ -113,17 +113,17 @@ struct UnevenPatches {
   int count = 0;
 };
 
-/// Adds the rows of a window that the voxels about a cell look at (see VoxelPlanes): those two farther along each axis,
-/// and the diagonal neighbours.
-void needRowsAbout(const Coord& cell, DistanceWindow::Rows& rows) {
+/// Adds the rows of a stencil that the voxels about a cell look at (see VoxelPlanes): those two farther along each
+/// axis, and the diagonal neighbours.
+void needRowsAbout(const Coord& cell, DistanceStencil::Rows& rows) {
   constexpr std::array<unsigned, 8> kBits{0x3C, 0x7E, 0xFF, 0xFF, 0xFF, 0xFF, 0x7E, 0x3C};
-  static_assert(DistanceWindow::kReach == 3);
+  static_assert(DistanceStencil::kReach == 3);
   for (int x = 0; x < 8; ++x) rows[cell[0] + x] |= static_cast<std::uint16_t>(kBits[x] << cell[1]);
 }
 
 class PlaneFinder {
  public:
-  PlaneFinder(const SampledBlock& block, const DistanceModel& model, const std::function<void(DistanceWindow&)>& read,
+  PlaneFinder(const SampledBlock& block, const DistanceModel& model, const std::function<void(DistanceStencil&)>& read,
               FeaturePlanes& planes)
       : mBlock(block),
         mModel(model),
@@ -131,22 +131,22 @@ class PlaneFinder {
         mCorners(model.M),
         mRead(read),
         mPlanes(planes),
-        mKinks(mWindow, creaseKink(model)),
-        mVoxels(mWindow, tolerance(model.noise), matCast<float>(model.M)) {}
+        mJumps(mStencil, creaseJump(model)),
+        mVoxels(mStencil, tolerance(model.noise), matCast<float>(model.M)) {}
 
-  /// Finds the planes of those among some patches at whose cells there are kinks.
+  /// Finds the planes of those among some patches at whose cells there are jumps.
   void run(UnevenPatches& patches) {
-    mWindow.rows = {};
-    for (const std::uint16_t i : patches.all()) needRowsAbout(cellOf(mBlock.patches[i]), mWindow.rows);
-    mRead(mWindow);
-    int kinked = 0;
+    mStencil.rows = {};
+    for (const std::uint16_t i : patches.all()) needRowsAbout(cellOf(mBlock.patches[i]), mStencil.rows);
+    mRead(mStencil);
+    int jumping = 0;
     for (const std::uint16_t i : patches.all()) {
       const Coord cell = cellOf(mBlock.patches[i]);
-      if (mKinks.noneAt(cell)) continue;
-      mVoxels.expect(cell);
-      patches.index[kinked++] = i;
+      if (mJumps.noneAt(cell)) continue;
+      mVoxels.request(cell);
+      patches.index[jumping++] = i;
     }
-    patches.count = kinked;
+    patches.count = jumping;
     for (const std::uint16_t i : patches.all()) run(i);
   }
 
@@ -156,11 +156,11 @@ class PlaneFinder {
     const SurfacePatch& patch = mBlock.patches[i];
     mCell = cellOf(patch);
     mVoxels.gather(mCell, mSamples);
-    SurfaceSides sides = findSides(mSamples, normalNoise(mModel.noise));
-    if (sides.count == 0) return;
-    sides.dropLight(leastShare(mModel.noise));
+    CreaseSheets sheets = findSheets(mSamples, normalNoise(mModel.noise));
+    if (sheets.count == 0) return;
+    sheets.dropLight(leastShare(mModel.noise));
     gatherCrossings(patch);
-    settle(sides);
+    keepMeetingSheets(sheets);
   }
 
   void gatherCrossings(const SurfacePatch& patch) {
@@ -180,69 +180,70 @@ class PlaneFinder {
     mMassPoint *= 1.0 / mCrossingCount;
   }
 
-  /// Leaves out sides that do not belong to the cell, and writes the planes of those that do.
-  void settle(SurfaceSides& sides) {
-    keepOwn(sides);
-    Vec3d y = meeting(sides.all());
-    while (sides.count > 1 && farthestMiss(sides.all(), y) > missed(mModel.noise)) {
+  /// Leaves out sheets that do not belong to the cell, and writes the planes of those that do.
+  void keepMeetingSheets(CreaseSheets& sheets) {
+    keepOwn(sheets);
+    Vec3d y = meeting(sheets.all());
+    while (sheets.count > 1 && farthestMiss(sheets.all(), y) > missed(mModel.noise)) {
       int farthest = 0;
-      for (int i = 1; i < sides.count; ++i)
-        if (length(sides.side[i].center - mMassPoint) > length(sides.side[farthest].center - mMassPoint)) farthest = i;
-      sides.drop(farthest);
-      y = meeting(sides.all());
+      for (int i = 1; i < sheets.count; ++i)
+        if (length(sheets.sheet[i].center - mMassPoint) > length(sheets.sheet[farthest].center - mMassPoint))
+          farthest = i;
+      sheets.drop(farthest);
+      y = meeting(sheets.all());
     }
-    write(sides, y);
+    write(sheets, y);
   }
 
-  [[nodiscard]] Vec3d meeting(std::span<const SurfaceSide> sides) const {
-    return meetingPoint(sides, mMassPoint, sideSigma(mModel.noise));
+  [[nodiscard]] Vec3d meeting(std::span<const CreaseSheet> sheets) const {
+    return meetingPoint(sheets, mMassPoint, sheetSigma(mModel.noise));
   }
 
-  static double farthestMiss(std::span<const SurfaceSide> sides, const Vec3d& y) {
+  static double farthestMiss(std::span<const CreaseSheet> sheets, const Vec3d& y) {
     double miss = 0;
-    for (const SurfaceSide& s : sides) miss = std::max(miss, std::abs(s.value(y)));
+    for (const CreaseSheet& s : sheets) miss = std::max(miss, std::abs(s.value(y)));
     return miss;
   }
 
-  /// Leaves the sides on which a crossing lies, and those that meet them within the cell.
-  void keepOwn(SurfaceSides& sides) const {
-    if (sides.count < 2) return;
-    std::array<bool, SurfaceSides::kMax> crossed = crossedSides(sides);
+  /// Leaves the sheets on which a crossing lies, and those that meet them within the cell.
+  void keepOwn(CreaseSheets& sheets) const {
+    if (sheets.count < 2) return;
+    std::array<bool, CreaseSheets::kMax> crossed = crossedSheets(sheets);
     const auto keep = [&](int to, int i) {
       if (to == i) return;
-      std::swap(sides.side[to], sides.side[i]);
+      std::swap(sheets.sheet[to], sheets.sheet[i]);
       std::swap(crossed[to], crossed[i]);
     };
     int own = 0;
-    for (int i = 0; i < sides.count; ++i)
+    for (int i = 0; i < sheets.count; ++i)
       if (crossed[i]) keep(own++, i);
-    for (int i = own; i < sides.count; ++i) {
+    for (int i = own; i < sheets.count; ++i) {
       keep(own, i);
-      const auto more = sides.all().first(static_cast<std::size_t>(own) + 1);
+      const auto more = sheets.all().first(static_cast<std::size_t>(own) + 1);
       const Vec3d y = meeting(more), at = mInverse * y;
       if (farthestMiss(more, y) <= missed(mModel.noise) &&
           std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= 0.5 + margin(mModel.noise))
         ++own;
     }
-    sides.count = own;
+    sheets.count = own;
   }
 
-  /// On which sides crossings lie. Sides are endless, but of two that lie behind each other, a convex edge, the first
+  /// On which sheets crossings lie. Sheets are endless, but of two that lie behind each other, a convex edge, the first
   /// that an edge meets on its way out ends the solid; of two before each other the last.
-  [[nodiscard]] std::array<bool, SurfaceSides::kMax> crossedSides(const SurfaceSides& sides) const {
+  [[nodiscard]] std::array<bool, CreaseSheets::kMax> crossedSheets(const CreaseSheets& sheets) const {
     constexpr double kSlack = 0.05;  // of an edge
-    const int n = sides.count;
-    std::array<std::array<bool, SurfaceSides::kMax>, SurfaceSides::kMax> convex{};
+    const int n = sheets.count;
+    std::array<std::array<bool, CreaseSheets::kMax>, CreaseSheets::kMax> convex{};
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < i; ++j)
         convex[i][j] = convex[j][i] =
-            sides.side[i].value(sides.side[j].center) + sides.side[j].value(sides.side[i].center) < 0;
-    std::array<AtCorners, SurfaceSides::kMax> value;
-    for (int i = 0; i < n; ++i) valueAtCorners(sides.side[i], value[i]);
-    std::array<bool, SurfaceSides::kMax> crossed{};
+            sheets.sheet[i].value(sheets.sheet[j].center) + sheets.sheet[j].value(sheets.sheet[i].center) < 0;
+    std::array<AtCorners, CreaseSheets::kMax> value;
+    for (int i = 0; i < n; ++i) valueAtCorners(sheets.sheet[i], value[i]);
+    std::array<bool, CreaseSheets::kMax> crossed{};
     for (int c = 0; c < mCrossingCount; ++c) {
       const CrossedEdge& edge = mCrossing[c];
-      std::array<double, SurfaceSides::kMax> root{};
+      std::array<double, CreaseSheets::kMax> root{};
       for (int i = 0; i < n; ++i) {
         const double v0 = value[i][edge.inside], v1 = value[i][edge.outside];
         root[i] = v1 > v0 ? -v0 / (v1 - v0) : std::numeric_limits<double>::infinity();
@@ -263,25 +264,25 @@ class PlaneFinder {
     return crossed;
   }
 
-  void valueAtCorners(const SurfaceSide& side, AtCorners& value) const {
-    forEachBlock(bestSimdLevel(), 1, [&](std::size_t) {
+  void valueAtCorners(const CreaseSheet& sheet, AtCorners& value) const {
+    withSimd(bestSimdLevel(), [&] {
       // Of its own, so that no store can change them: else the loop is not vectorised.
-      const SurfaceSide s = side;
+      const CreaseSheet s = sheet;
       AtCorners v;
       for (int i = 0; i < kCorners; ++i) v[i] = s.value({mCorners.x[i], mCorners.y[i], mCorners.z[i]});
       value = v;
     });
   }
 
-  void write(const SurfaceSides& sides, const Vec3d& y) {
+  void write(const CreaseSheets& sheets, const Vec3d& y) {
     const auto first = static_cast<std::uint32_t>(mPlanes.planes.size());
-    for (int i = 0; i < sides.count; ++i) {
-      const SurfaceSide& s = sides.side[i];
+    for (int i = 0; i < sheets.count; ++i) {
+      const CreaseSheet& s = sheets.sheet[i];
       const Vec3d g = s.gradient(y);
       const double l = length(g);
       writePlane(y - g * (s.value(y) / (l * l)), g * (std::sqrt(std::min(s.weight, 1.0)) / l));
     }
-    mPlanes.patches.push_back({mPatch, first, static_cast<std::uint32_t>(sides.count), sideSigma(mModel.noise)});
+    mPlanes.patches.push_back({mPatch, first, static_cast<std::uint32_t>(sheets.count), sheetSigma(mModel.noise)});
   }
 
   void writePlane(const Vec3d& point, const Vec3d& normal) {
@@ -294,11 +295,11 @@ class PlaneFinder {
   const DistanceModel& mModel;
   Mat3d mInverse;
   CellCorners mCorners;
-  const std::function<void(DistanceWindow&)>& mRead;
+  const std::function<void(DistanceStencil&)>& mRead;
   FeaturePlanes& mPlanes;
 
-  DistanceWindow mWindow;
-  Kinks mKinks;
+  DistanceStencil mStencil;
+  GradientJumps mJumps;
   VoxelPlanes mVoxels;
   SurfaceSamples mSamples;
   std::uint32_t mPatch = 0;
@@ -311,7 +312,7 @@ class PlaneFinder {
 }  // namespace
 
 void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
-                       const std::function<void(DistanceWindow&)>& read, FeaturePlanes& planes) {
+                       const std::function<void(DistanceStencil&)>& read, FeaturePlanes& planes) {
   if (block.patches.empty() || allEven(block)) return;
   UnevenPatches uneven;
   for (std::size_t i = 0; i < block.patches.size(); ++i)

@@ -29,11 +29,11 @@ struct SampledBlock {
 ///
 /// Where the normals of a patch's crossings agree there is none. Otherwise each voxel of the 4×4×4 about the cell that
 /// sees a smooth piece of surface (see voxelPlanes) tells where that piece lies. A patch gathers those near it, sorts
-/// them into sides, and replaces its crossings' planes by one plane per side, through and tangent to the side where all
-/// sides meet. Sides that none of its crossings lies on, unless they meet within the cell, and those that have no point
-/// in common with the others, are left out.
-/// \param read fills the rows of the block's window; called at most once.
+/// them into sheets, and replaces its crossings' planes by one plane per sheet, through and tangent to the sheet where
+/// all sheets meet. Sheets that none of its crossings lies on, unless they meet within the cell, and those that have no
+/// point in common with the others, are left out. \param read fills the rows of the block's stencil; called at most
+/// once.
 void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
-                       const std::function<void(DistanceWindow&)>& read, FeaturePlanes& planes);
+                       const std::function<void(DistanceStencil&)>& read, FeaturePlanes& planes);
 
 }  // namespace pdc::detail

@@ -39,13 +39,13 @@ struct Sizes {
   std::vector<float> slopes, thirds, fourths;
 
   /// Adds those of a block. \param Kt turns gradients in lattice units into those in voxels.
-  void add(const DistanceWindow& window, const Mat3d& Kt) {
+  void add(const DistanceStencil& stencil, const Mat3d& Kt) {
     for (int i = 0; i < kBlockSize * kBlockSize * kBlockSize; ++i) {
-      const float* p = &window.value[DistanceWindow::index(i >> 6, i >> 3 & 7, i & 7)];
+      const float* p = &stencil.value[DistanceStencil::index(i >> 6, i >> 3 & 7, i & 7)];
       if (!(std::abs(*p) < kNear)) continue;
       Vec3d g;
       for (int axis = 0; axis < 3; ++axis) {
-        const int s = DistanceWindow::kStep[axis];
+        const int s = DistanceStencil::kStep[axis];
         g[axis] = 0.5 * (double{p[s]} - p[-s]);
         const float third = std::abs(p[2 * s] - 3 * p[s] + 3 * p[0] - p[-s]);
         if (third >= 0) thirds.push_back(third);
@@ -64,15 +64,15 @@ struct Sizes {
 };
 
 Sizes sizesOf(const std::vector<Coord>& blocks, const Mat3d& K,
-              const std::function<void(const Coord&, DistanceWindow&)>& read) {
+              const std::function<void(const Coord&, DistanceStencil&)>& read) {
   const Mat3d Kt = K.transposed();
   tbb::enumerable_thread_specific<Sizes> parts;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 8), [&](const auto& range) {
-    const auto window = std::make_unique<DistanceWindow>();
+    const auto stencil = std::make_unique<DistanceStencil>();
     Sizes& sizes = parts.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      read(blocks[i], *window);
-      sizes.add(*window, Kt);
+      read(blocks[i], *stencil);
+      sizes.add(*stencil, Kt);
     }
   });
   Sizes all;
@@ -83,7 +83,7 @@ Sizes sizesOf(const std::vector<Coord>& blocks, const Mat3d& K,
 }  // namespace
 
 DistanceProbe probeDistances(const std::vector<Coord>& blocks, const Mat3d& K,
-                             const std::function<void(const Coord&, DistanceWindow&)>& read) {
+                             const std::function<void(const Coord&, DistanceStencil&)>& read) {
   Sizes sizes = sizesOf(blocks, K, read);
   const double third = quantile(sizes.thirds, 0.25);
   DistanceProbe probe{.slopeError = quantile(sizes.slopes, 0.5), .noise = 0, .texture = 0};

@@ -29,8 +29,8 @@ inline constexpr std::size_t kProbeBlocks = 64;
 /// voxels are beside a crease it is still up to half too high. It is texture instead where fourth differences are as
 /// large, which curvature's are not, but the third ones are not spread as Gaussian noise spreads them: surfaces rough
 /// at the size of a voxel, as scanned meshes are, have many small ones. \param K from steps in world space, in voxels,
-/// to lattice units. \param read fills a block's window; called from many threads.
+/// to lattice units. \param read fills a block's stencil; called from many threads.
 [[nodiscard]] DistanceProbe probeDistances(const std::vector<Coord>& blocks, const Mat3d& K,
-                                           const std::function<void(const Coord&, DistanceWindow&)>& read);
+                                           const std::function<void(const Coord&, DistanceStencil&)>& read);
 
 }  // namespace pdc::detail

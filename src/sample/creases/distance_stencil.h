@@ -11,7 +11,7 @@ namespace pdc::detail {
 
 /// A block's points and three beyond on every side, -3 to 11 on each axis, as distances in voxels that are negative
 /// inside; NaN where the grid does not say. Along z there is one more below, so that rows are whole blocks of lanes.
-struct DistanceWindow {
+struct DistanceStencil {
   static constexpr int kReach = 3, kPoints = kBlockPoints + 2 * kReach;
   static constexpr int kBelow = kReach + 1, kAbove = kReach + 1;  ///< The block's own eight along z.
   static_assert(kBelow + kBlockSize + kAbove == kLanes);

@@ -17,7 +17,7 @@ inline float milder(float a, float b) {
   return mild == mild ? mild : 0.0F;
 }
 
-/// Slopes at a point of a window along one axis, from above and below, exact to second order where the function is
+/// Slopes at a point of a stencil along one axis, from above and below, exact to second order where the function is
 /// smooth on their side (ENO, Harten & Osher 1987). NaN where unknown.
 struct OneSidedSlopes {
   OneSidedSlopes(const float* p, int step) {
@@ -31,12 +31,12 @@ struct OneSidedSlopes {
 
 /// The points of a block whose slopes from both sides are known and differ along some axis: a crease's bisector passes
 /// by. Found a row at a time, as they are asked for.
-class Kinks {
+class GradientJumps {
  public:
-  /// \param window must outlive this. \param tolerance by how much slopes may differ. \param level changes no bit of
+  /// \param stencil must outlive this. \param tolerance by how much slopes may differ. \param level changes no bit of
   /// it.
-  Kinks(const DistanceWindow& window, float tolerance, SimdLevel level = bestSimdLevel())
-      : mWindow(window), mTolerance(tolerance), mLevel(level) {}
+  GradientJumps(const DistanceStencil& stencil, float tolerance, SimdLevel level = bestSimdLevel())
+      : mStencil(stencil), mTolerance(tolerance), mLevel(level) {}
 
   /// True if there are none at the corners of a cell. A bisector that passes between them is next to one.
   [[nodiscard]] bool noneAt(const Coord& cell);
@@ -44,7 +44,7 @@ class Kinks {
  private:
   void find(int row);
 
-  const DistanceWindow& mWindow;
+  const DistanceStencil& mStencil;
   float mTolerance;
   SimdLevel mLevel;
   std::bitset<kBlockPoints * kBlockPoints> mKnown;

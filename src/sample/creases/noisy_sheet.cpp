@@ -11,7 +11,7 @@ namespace {
 // Chosen with bench/feature_eval on the tuning shapes, noise 0.02 and 0.1.
 
 /// Bends that are expected, per voxel. Where they are larger noise of 0.02 voxels hides them: with 0.1 the edges of a
-/// cylinder were 10 % more exact, those of flat sides 12 to 18 % less.
+/// cylinder were 10 % more exact, those of flat sheets 12 to 18 % less.
 constexpr double kUsualBend = 0.02;
 /// What is wrong with heights and normals besides noise, in voxels and without unit.
 constexpr double kHeightError = 0.01, kNormalError = 0.01;
@@ -67,7 +67,7 @@ Sums sumUp(const SurfaceSamples& samples, const float* share, const Vec3f& cente
                                    {1, 2}, {0, 3}, {4, 0}, {3, 1}, {2, 2}, {1, 3}, {0, 4}};
   alignas(64) float power[kPowers][kLanes] = {}, height[kHeights][kLanes] = {}, slope[kSlopes][kLanes] = {};
   const Vec3f e1 = vecCast<float>(frame.e1), e2 = vecCast<float>(frame.e2), n = vecCast<float>(frame.n);
-  forEachBlock(level, static_cast<std::size_t>(samples.blocks()), [&](std::size_t block) {
+  forEachBatch(level, static_cast<std::size_t>(samples.blocks()), [&](std::size_t block) {
     const auto column = [&](int c) { return &samples.column[c][block * kLanes]; };
     const float *nx = column(SurfaceSamples::kNormalX), *ny = column(SurfaceSamples::kNormalY),
                 *nz = column(SurfaceSamples::kNormalZ), *fx = column(SurfaceSamples::kFootX),
@@ -123,11 +123,11 @@ Vector fit(const Sums& s, double normalNoise) {
 
 }  // namespace
 
-SurfaceSide fitNoisySide(const SurfaceSamples& samples, const float* share, const SurfaceSide& side, double normalNoise,
-                         SimdLevel level) {
-  const Frame f(side.normal);
-  const Vector p = fit(sumUp(samples, share, vecCast<float>(side.center), f, level), normalNoise);
-  SurfaceSide fitted = side;
+CreaseSheet fitNoisySheet(const SurfaceSamples& samples, const float* share, const CreaseSheet& sheet,
+                          double normalNoise, SimdLevel level) {
+  const Frame f(sheet.normal);
+  const Vector p = fit(sumUp(samples, share, vecCast<float>(sheet.center), f, level), normalNoise);
+  CreaseSheet fitted = sheet;
   const Vec3d gradient = f.n - f.e1 * p[1] - f.e2 * p[2];
   const double l = length(gradient);
   fitted.normal = gradient * (1 / l);

@@ -17,7 +17,7 @@ constexpr float kCurvature = 0.03F;
 /// Samples whose foot is this far from a cell, in voxels, tell it nothing.
 constexpr float kFootReach = 1.2F;
 
-constexpr auto kStep = DistanceWindow::kStep;
+constexpr auto kStep = DistanceStencil::kStep;
 constexpr int kOctants = SurfaceSamples::kOctants;
 
 using Lanes = std::array<float, kLanes>;
@@ -84,10 +84,10 @@ std::uint64_t countBelow(std::uint64_t bits) {
   return ((bits + (bits >> 4)) & 0x0F * kEachByte) * kEachByte << 8;
 }
 
-/// \param first of the row's values in the window.
+/// \param first of the row's values in the stencil.
 template <int lanes>
-void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) {
-  forEachBlock(level, 3, [&](std::size_t axis) {
+void findSlopes(SimdLevel level, const float* first, float jump, VoxelRow& row) {
+  forEachBatch(level, 3, [&](std::size_t axis) {
     const int step = kStep[axis];
     float *below = &row.slope[2 * axis * kLanes], *above = below + kLanes;
     float* apart = row.apart[axis].data();
@@ -96,7 +96,7 @@ void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) 
       const OneSidedSlopes s(p, step);
       // Where both agree, the central difference is the most exact.
       const float central = 0.5F * (p[step] - p[-step]);
-      const bool smooth = std::abs(s.above - s.below) <= kink;
+      const bool smooth = std::abs(s.above - s.below) <= jump;
       below[lane] = smooth ? central : s.below;
       above[lane] = smooth ? central : s.above;
       apart[lane] = smooth ? 0.0F : std::numeric_limits<float>::infinity();
@@ -108,7 +108,7 @@ void findSlopes(SimdLevel level, const float* first, float kink, VoxelRow& row) 
 /// code, because the compiler unrolls shorter ones before it can vectorise them.
 template <int lanes>
 void findOctants(SimdLevel level, const float* first, float mostMissed, VoxelRow& row) {
-  forEachBlock(level, 1, [&](std::size_t) {
+  withSimd(level, [&] {
     forEachLane<lanes>([&](int lane) {
       const float* p = first + lane;
       // How far the diagonals of the quadrants of each two axes, this one and the next, miss what their sides predict.
@@ -127,7 +127,7 @@ void findOctants(SimdLevel level, const float* first, float mostMissed, VoxelRow
         missed[o] = sum == sum ? over : mostMissed;
       }
       // Of octants with the same slopes the one whose diagonals fit best speaks for all: the one below along axes that
-      // are not kinked.
+      // do not jump.
       for (int axis = 0; axis < 3; ++axis)
         for (int k = 0; k < kOctants / 2; ++k) {
           const int low = (k >> axis << (axis + 1)) | (k & ((1 << axis) - 1));
@@ -152,7 +152,7 @@ void findOctants(SimdLevel level, const float* first, float mostMissed, VoxelRow
 /// The sample of each octant; those that are not believed have no weight. \param to by SurfaceSamples::Column.
 void findSamples(SimdLevel level, const OctantList& list, const PlaneTolerance& tolerance, const Mat3f& K,
                  const std::array<float*, SurfaceSamples::kColumns>& to) {
-  forEachBlock(level, blockCount(static_cast<std::size_t>(list.count)), [&](std::size_t block) {
+  forEachBatch(level, batchCount(static_cast<std::size_t>(list.count)), [&](std::size_t block) {
     const std::size_t begin = block * kLanes;
     const float *sx = &list.slope[0][begin], *sy = &list.slope[1][begin], *sz = &list.slope[2][begin],
                 *missedOf = &list.missed[begin], *valueOf = &list.value[begin];
@@ -242,13 +242,13 @@ void VoxelPlanes::addRow(int row, OctantList& list) {
   const unsigned needed = mNeeded[row];
   const int low = std::countr_zero(needed), x = row / kVoxels, y = row % kVoxels;
   const bool fit = needed >> low < 1U << kHalf;
-  const float* values = &mWindow.value[DistanceWindow::index(x - 1, y - 1, low - 1)];
+  const float* values = &mStencil.value[DistanceStencil::index(x - 1, y - 1, low - 1)];
   VoxelRow voxels;
   if (fit) {
-    findSlopes<kHalf>(mLevel, values, mTolerance.kink, voxels);
+    findSlopes<kHalf>(mLevel, values, mTolerance.jump, voxels);
     findOctants<kHalf>(mLevel, values, mTolerance.error, voxels);
   } else {
-    findSlopes<kLanes>(mLevel, values, mTolerance.kink, voxels);
+    findSlopes<kLanes>(mLevel, values, mTolerance.jump, voxels);
     findOctants<kLanes>(mLevel, values, mTolerance.error, voxels);
   }
   static_assert(std::endian::native == std::endian::little);
@@ -307,7 +307,7 @@ void VoxelPlanes::keepHeaviest(int most, int begin, int end) {
   }
 }
 
-void VoxelPlanes::expect(const Coord& cell) {
+void VoxelPlanes::request(const Coord& cell) {
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 4; ++y)
       mNeeded[kVoxels * (cell[0] + x) + cell[1] + y] |= static_cast<std::uint16_t>(0xF << cell[2]);
@@ -317,7 +317,7 @@ void VoxelPlanes::gather(const Coord& cell, SurfaceSamples& samples) {
   if (!mFound) find();
   const Vec3f center{float(cell[0]) + 0.5F, float(cell[1]) + 0.5F, float(cell[2]) + 0.5F};
   const RowStarts* const rowStarts = &mStart[kVoxels * cell[0] + cell[1]];
-  forEachBlock(mLevel, 1, [&](std::size_t) {
+  withSimd(mLevel, [&] {
     // Of its own, so that no store can change them.
     const RowStarts* const rows = rowStarts;
     const Columns& from = mColumn;

@@ -13,7 +13,7 @@ namespace pdc::detail {
 struct PlaneTolerance {
   float error;  ///< Samples whose error is larger count for nothing.
   float usual;  ///< Samples whose error is smaller are as good as any.
-  float kink;   ///< One-sided slopes that differ by more lie on different sides of a crease.
+  float jump;   ///< One-sided slopes that differ by more lie on different sheets of a crease.
 };
 
 /// Planes that the distances about single voxels agree on, each through the point of the surface nearest to its voxel.
@@ -33,7 +33,7 @@ struct SurfaceSamples {
   /// Of the 4×4×4 voxels about a cell, one per octant.
   static constexpr int kMost = 4 * 4 * 4 * kOctants, kCapacity = kMost + kLanes;
 
-  [[nodiscard]] int blocks() const { return static_cast<int>(blockCount(static_cast<std::size_t>(count))); }
+  [[nodiscard]] int blocks() const { return static_cast<int>(batchCount(static_cast<std::size_t>(count))); }
   [[nodiscard]] Vec3f normal(int i) const { return {column[kNormalX][i], column[kNormalY][i], column[kNormalZ][i]}; }
   [[nodiscard]] Vec3f foot(int i) const { return {column[kFootX][i], column[kFootY][i], column[kFootZ][i]}; }
 
@@ -45,20 +45,20 @@ struct OctantList;
 
 /// The samples of a block's voxels, found when the first are asked for.
 ///
-/// Along each axis a voxel has slopes from both sides (see OneSidedSlopes), so that one sees one side of a crease only.
-/// A combination of slopes, one of the eight octants, is believed as far as it has length one, as a distance's gradient
-/// has, and its octant's face diagonals hold what it predicts. A voxel whose surroundings are smooth has one sample,
-/// more where a crease's bisector passes by.
+/// Along each axis a voxel has slopes from both sides (see OneSidedSlopes), so that one sees one sheet of a crease
+/// only. A combination of slopes, one of the eight octants, is believed as far as it has length one, as a distance's
+/// gradient has, and its octant's face diagonals hold what it predicts. A voxel whose surroundings are smooth has one
+/// sample, more where a crease's bisector passes by.
 class VoxelPlanes {
  public:
-  /// \param window must outlive this. \param M from lattice steps to world space, in voxels. \param level changes no
+  /// \param stencil must outlive this. \param M from lattice steps to world space, in voxels. \param level changes no
   /// bit of the samples.
-  VoxelPlanes(const DistanceWindow& window, const PlaneTolerance& tolerance, const Mat3f& M,
+  VoxelPlanes(const DistanceStencil& stencil, const PlaneTolerance& tolerance, const Mat3f& M,
               SimdLevel level = bestSimdLevel())
-      : mWindow(window), mTolerance(tolerance), mM(M), mK(inverse(M)), mLevel(level) {}
+      : mStencil(stencil), mTolerance(tolerance), mM(M), mK(inverse(M)), mLevel(level) {}
 
   /// Must be called for all cells that gather() will be called for, before the first.
-  void expect(const Coord& cell);
+  void request(const Coord& cell);
   /// Collects the samples of the 4×4×4 voxels about a cell of the block; the nearer their foot, the more they weigh.
   void gather(const Coord& cell, SurfaceSamples& samples);
 
@@ -76,7 +76,7 @@ class VoxelPlanes {
   void keepHeaviest(int most, int begin, int end);
   void dropWeightless(int row);
 
-  const DistanceWindow& mWindow;
+  const DistanceStencil& mStencil;
   PlaneTolerance mTolerance;
   Mat3f mM, mK;
   SimdLevel mLevel;

@@ -13,7 +13,7 @@ namespace {
 /// The edges along one axis, as one lane sees them. Written for one edge, vectorised over sixteen: without branches.
 struct AxisKernel {
   const float* value;
-  const int* point;  ///< Index in the halo of each edge's lower end.
+  const int* point;  ///< Index in the stencil of each edge's lower end.
   int step, stepU, stepV;
   SlopeLimits limits;
   Mat3<float> map;  ///< From (along, u, v) to world.
@@ -60,8 +60,8 @@ struct AxisKernel {
 
 }  // namespace
 
-HaloRows::HaloRows(const EdgeIndex& edges) {
-  constexpr int n = Halo::kPoints;
+GradientStencilRows::GradientStencilRows(const EdgeIndex& edges) {
+  constexpr int n = GradientStencil::kPoints;
   std::array<unsigned, n> needed{};  // By x + 1; bit y + 1.
   // Slopes across an edge are taken at both of its ends.
   const std::uint16_t* point = edges.points();
@@ -86,7 +86,7 @@ HaloRows::HaloRows(const EdgeIndex& edges) {
     }
   }
   std::array<unsigned, 3> ofLayer{};
-  for (int x = 0; x < n; ++x) ofLayer[Halo::part(x - 1)] |= needed[x];
+  for (int x = 0; x < n; ++x) ofLayer[GradientStencil::part(x - 1)] |= needed[x];
   constexpr unsigned kPart[3] = {1, 0xFF << 1, 3 << 9};
   for (int part = 0; part < 9; ++part) mParts |= unsigned{(ofLayer[part / 3] & kPart[part % 3]) != 0} << part;
   constexpr int kAtOnce = 5;  // Layers that fit into a word: a loop over few bits ends unforeseen.
@@ -97,19 +97,19 @@ HaloRows::HaloRows(const EdgeIndex& edges) {
   }
 }
 
-void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& limits, const Mat3<float>& normalMap,
-                  HermiteBlock& hermite, SimdLevel level) {
+void fillFromStencil(const GradientStencil& stencil, const EdgeIndex& edges, const SlopeLimits& limits,
+                     const Mat3<float>& normalMap, HermiteBlock& hermite, SimdLevel level) {
   static_assert(HermiteBlock::kCapacity >= EdgeIndex::kMaxEdges + kLanes);
   std::array<int, HermiteBlock::kCapacity> point;
   for (int axis = 0; axis < 3; ++axis) {
     const int begin = edges.begin(axis), count = edges.begin(axis + 1) - begin;
     if (count == 0) continue;
-    const int blocks = static_cast<int>(blockCount(static_cast<std::size_t>(count)));
+    const int blocks = static_cast<int>(batchCount(static_cast<std::size_t>(count)));
     const std::uint16_t* packed = edges.points() + begin;
-    forEachBlock(level, static_cast<std::size_t>(blocks), [&](std::size_t block) {
+    forEachBatch(level, static_cast<std::size_t>(blocks), [&](std::size_t block) {
       forEachLane([to = &point[block * kLanes], from = packed + block * kLanes](int i) {
         const int p = from[i];
-        to[i] = Halo::index(p >> 8, p >> 4 & 15, p & 15);
+        to[i] = GradientStencil::index(p >> 8, p >> 4 & 15, p & 15);
       });
     });
     std::fill(point.begin() + count, point.begin() + blocks * kLanes, point[0]);
@@ -118,10 +118,18 @@ void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& l
     Mat3<float> map;
     for (int r = 0; r < 3; ++r) map.row[r] = {normalMap.row[r][axis], normalMap.row[r][u], normalMap.row[r][v]};
     // Later axes overwrite what the last register of this one writes beyond its end.
-    const AxisKernel kernel{
-        halo.value.data(), point.data(),       Halo::kStep[axis],  Halo::kStep[u],    Halo::kStep[v], limits, map,
-        &hermite.t[begin], &hermite.nx[begin], &hermite.ny[begin], &hermite.nz[begin]};
-    forEachBlock(level, static_cast<std::size_t>(blocks), [&kernel](std::size_t block) {
+    const AxisKernel kernel{stencil.value.data(),
+                            point.data(),
+                            GradientStencil::kStep[axis],
+                            GradientStencil::kStep[u],
+                            GradientStencil::kStep[v],
+                            limits,
+                            map,
+                            &hermite.t[begin],
+                            &hermite.nx[begin],
+                            &hermite.ny[begin],
+                            &hermite.nz[begin]};
+    forEachBatch(level, static_cast<std::size_t>(blocks), [&kernel](std::size_t block) {
       const int first = static_cast<int>(block) * kLanes;
       forEachLane([&](int lane) { kernel(first + lane); });
     });

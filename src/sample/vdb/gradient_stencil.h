@@ -11,7 +11,7 @@
 namespace pdc::detail {
 
 /// A block's points and their neighbours, points -1 to 9 on each axis, as values that are negative inside.
-struct Halo {
+struct GradientStencil {
   static constexpr int kPoints = kBlockPoints + 2;
   static constexpr std::array<int, 3> kStep{kPoints * kPoints, kPoints, 1};
 
@@ -22,20 +22,20 @@ struct Halo {
   std::array<float, kPoints * kPoints * kPoints> value;
 };
 
-/// The rows along z of a halo that hold what a block's crossings need.
-class HaloRows {
+/// The rows along z of a stencil that hold what a block's crossings need.
+class GradientStencilRows {
  public:
-  explicit HaloRows(const EdgeIndex& edges);
+  explicit GradientStencilRows(const EdgeIndex& edges);
 
   /// Each as kPoints (x + 1) + y + 1.
   [[nodiscard]] std::span<const std::uint8_t> rows() const { return {mRow.data(), mSize}; }
-  /// Bit 3 Halo::part(x) + Halo::part(y): whether any row (x, y) of that part is needed.
+  /// Bit 3 GradientStencil::part(x) + GradientStencil::part(y): whether any row (x, y) of that part is needed.
   [[nodiscard]] unsigned parts() const { return mParts; }
   /// Whether the points at z = -1 are needed.
   [[nodiscard]] bool below() const { return mBelow; }
 
  private:
-  std::array<std::uint8_t, Halo::kPoints * Halo::kPoints> mRow;
+  std::array<std::uint8_t, GradientStencil::kPoints * GradientStencil::kPoints> mRow;
   std::size_t mSize = 0;
   unsigned mParts = 0;
   bool mBelow = false;
@@ -49,7 +49,7 @@ struct SlopeLimits {
 /// Fills crossings and normals of a block from its points: the crossing where the linear function along the edge is
 /// zero; as normal, `normalMap` times the gradient of the trilinear interpolant, averaged over the four cells there.
 /// \param level changes no bit of it.
-void fillFromHalo(const Halo& halo, const EdgeIndex& edges, const SlopeLimits& limits, const Mat3<float>& normalMap,
-                  HermiteBlock& hermite, SimdLevel level = bestSimdLevel());
+void fillFromStencil(const GradientStencil& stencil, const EdgeIndex& edges, const SlopeLimits& limits,
+                     const Mat3<float>& normalMap, HermiteBlock& hermite, SimdLevel level = bestSimdLevel());
 
 }  // namespace pdc::detail

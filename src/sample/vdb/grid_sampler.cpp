@@ -85,8 +85,8 @@ class TypedGridSampler final : public GridSampler {
     return out;
   }
 
-  /// What readHalo() will read of leaves that no block before has touched: the block's own leaf and those above it.
-  void expect(const Coord& block) const override {
+  /// What readStencil() will read of leaves that no block before has touched: the block's own leaf and those above it.
+  void prefetch(const Coord& block) const override {
     const typename Table::Around around(mTable, block);
     const auto fetch = [&](const Place& place, std::size_t rows, std::size_t step) {
       if (place.leaf < 0 || mTable.values(place.leaf) == nullptr) return;
@@ -104,18 +104,18 @@ class TypedGridSampler final : public GridSampler {
 
   void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                    HermiteBlock& hermite) const override {
-    Halo halo;
-    readHalo(block, edges, halo);
+    GradientStencil stencil;
+    readStencil(block, edges, stencil);
     const SlopeLimits limits{mLow, mHigh};
     const auto normalMap = [&map](const Vec3d& x) {
       // Scaled to lattice units, in which gradients are as large as differences of values.
       return inverse(map.jacobian(x)).transposed() * map.voxelSize();
     };
     if (map.affine()) {
-      fillFromHalo(halo, edges, limits, matCast<float>(normalMap({})), hermite);
+      fillFromStencil(stencil, edges, limits, matCast<float>(normalMap({})), hermite);
       return;
     }
-    fillFromHalo(halo, edges, limits, Mat3f::identity(), hermite);
+    fillFromStencil(stencil, edges, limits, Mat3f::identity(), hermite);
     edges.forEach([&](int i, int axis, int x, int y, int z) {
       Vec3d at{8.0 * block[0] + x, 8.0 * block[1] + y, 8.0 * block[2] + z};
       at[axis] += hermite.t[i];
@@ -134,9 +134,9 @@ class TypedGridSampler final : public GridSampler {
     return some;
   }
 
-  void readWindow(const Coord& block, float scale, DistanceWindow& window) const override {
-    constexpr int kBelow = DistanceWindow::kBelow, kAbove = DistanceWindow::kAbove;
-    constexpr int kReach = DistanceWindow::kReach, kEndReach = kBlockPoints + kReach;
+  void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const override {
+    constexpr int kBelow = DistanceStencil::kBelow, kAbove = DistanceStencil::kAbove;
+    constexpr int kReach = DistanceStencil::kReach, kEndReach = kBlockPoints + kReach;
     constexpr std::array<int, 3> kFirst{-kReach, 0, kBlockSize}, kEnd{0, kBlockSize, kEndReach};
     const typename Table::Around around(mTable, block);
     const ValueReader<ValueT> reader = mReader;  // Of its own, so that no store can change it.
@@ -146,14 +146,14 @@ class TypedGridSampler final : public GridSampler {
         for (int pz = 0; pz < 3; ++pz) rows[pz].find(mTable, around(px - 1, py - 1, pz - 1));
         for (int x = kFirst[px]; x < kEnd[px]; ++x)
           for (int y = kFirst[py]; y < kEnd[py]; ++y) {
-            if ((window.rows[x + kReach] >> (y + kReach) & 1) == 0) continue;
-            float* to = &window.value[DistanceWindow::index(x, y, 0)];
+            if ((stencil.rows[x + kReach] >> (y + kReach) & 1) == 0) continue;
+            float* to = &stencil.value[DistanceStencil::index(x, y, 0)];
             reader.template copy<kBelow>(rows[0].at(x, y) + (kBlockSize - kBelow), to - kBelow);
             reader.template copy<kBlockSize>(rows[1].at(x, y), to);
             reader.template copy<kAbove>(rows[2].at(x, y), to + kBlockSize);
           }
       }
-    scaleKnown(scale, window);
+    scaleKnown(scale, stencil);
   }
 
  private:
@@ -287,9 +287,9 @@ class TypedGridSampler final : public GridSampler {
   }
 
   /// Scales the values that a slope may be made of, and makes the others NaN.
-  void scaleKnown(float scale, DistanceWindow& window) const {
-    forEachBlock(bestSimdLevel(), 1, [&window, scale, low = mLow, high = mHigh](std::size_t) {
-      for (float& v : window.value) {
+  void scaleKnown(float scale, DistanceStencil& stencil) const {
+    withSimd(bestSimdLevel(), [&stencil, scale, low = mLow, high = mHigh] {
+      for (float& v : stencil.value) {
         const float scaled = v * scale;
         v = ((v > low) & (v < high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
       }
@@ -318,22 +318,22 @@ class TypedGridSampler final : public GridSampler {
     LeafValues<LeafT> mLeaf;
   };
 
-  /// Where a row of a halo lies: in which part (see HaloRows), and there in which row.
-  struct HaloRow {
+  /// Where a row of a stencil lies: in which part (see GradientStencilRows), and there in which row.
+  struct StencilRow {
     std::uint8_t part, row;
   };
-  static constexpr auto kHaloRow = [] {
-    std::array<HaloRow, Halo::kPoints * Halo::kPoints> rows{};
-    for (int i = 0; i < Halo::kPoints * Halo::kPoints; ++i) {
-      const int x = i / Halo::kPoints - 1, y = i % Halo::kPoints - 1;
-      rows[i] = {static_cast<std::uint8_t>(3 * Halo::part(x) + Halo::part(y)),
+  static constexpr auto kStencilRow = [] {
+    std::array<StencilRow, GradientStencil::kPoints * GradientStencil::kPoints> rows{};
+    for (int i = 0; i < GradientStencil::kPoints * GradientStencil::kPoints; ++i) {
+      const int x = i / GradientStencil::kPoints - 1, y = i % GradientStencil::kPoints - 1;
+      rows[i] = {static_cast<std::uint8_t>(3 * GradientStencil::part(x) + GradientStencil::part(y)),
                  static_cast<std::uint8_t>(kBlockSize * (x & 7) + (y & 7))};
     }
     return rows;
   }();
 
-  void readHalo(const Coord& block, const EdgeIndex& edges, Halo& halo) const {
-    const HaloRows needed(edges);
+  void readStencil(const Coord& block, const EdgeIndex& edges, GradientStencil& stencil) const {
+    const GradientStencilRows needed(edges);
     const typename Table::Around around(mTable, block);
     std::array<std::array<Rows, 3>, 9> parts;
     for (unsigned bits = needed.parts(); bits != 0; bits &= bits - 1) {
@@ -344,14 +344,14 @@ class TypedGridSampler final : public GridSampler {
     const ValueReader<ValueT> reader = mReader;  // Of its own, so that no store can change it.
     const auto read = [&](auto below) {
       for (const std::uint8_t i : needed.rows()) {
-        const auto [part, row] = kHaloRow[i];
-        float* to = &halo.value[Halo::kPoints * i];
+        const auto [part, row] = kStencilRow[i];
+        float* to = &stencil.value[GradientStencil::kPoints * i];
         if constexpr (decltype(below)::value) reader.template copy<1>(parts[part][0].row(row) + 7, to);
         reader.template copy<8>(parts[part][1].row(row), to + 1);
         reader.template copy<2>(parts[part][2].row(row), to + 9);
       }
     };
-    forEachBlock(mLevel, 1, [&](std::size_t) {
+    withSimd(mLevel, [&] {
       if (needed.below()) {
         read(std::true_type{});
       } else {

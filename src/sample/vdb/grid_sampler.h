@@ -25,13 +25,13 @@ class GridSampler {
  public:
   virtual ~GridSampler() = default;
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
-  virtual void expect(const Coord& block) const = 0;
+  virtual void prefetch(const Coord& block) const = 0;
   virtual void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                            HermiteBlock& hermite) const = 0;
   /// Up to `most` leaves, as blocks, spread evenly over the tree.
   [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
-  /// The values about a block times `scale`, in the window's rows.
-  virtual void readWindow(const Coord& block, float scale, DistanceWindow& window) const = 0;
+  /// The values about a block times `scale`, in the stencil's rows.
+  virtual void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const = 0;
 };
 
 /// \returns null if the grid's type is not one of float, double, int32, int64, bool.

@@ -77,7 +77,7 @@ std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeD
   const auto inVoxels = static_cast<float>(1 / map.voxelSize());
   const detail::DistanceProbe probe = detail::probeDistances(
       sampler.someLeaves(detail::kProbeBlocks), inverse(M),
-      [&](const Coord& block, detail::DistanceWindow& window) { sampler.readWindow(block, inVoxels, window); });
+      [&](const Coord& block, detail::DistanceStencil& stencil) { sampler.readDistances(block, inVoxels, stencil); });
   if (!asked && !(probe.slopeError <= kSlopeError && probe.texture <= kMostTexture)) return std::nullopt;
   return detail::DistanceModel{.M = M, .noise = probe.noise, .texture = asked ? 0 : probe.texture};
 }
@@ -129,14 +129,14 @@ void GridSource::fillHermite(const Coord& block, const BlockSigns&, const EdgeIn
   mImpl->sampler->fillHermite(block, edges, mImpl->map, hermite);
 }
 
-void GridSource::expect(const Coord& block) const { mImpl->sampler->expect(block); }
+void GridSource::prefetch(const Coord& block) const { mImpl->sampler->prefetch(block); }
 
 void GridSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                                    const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
                                    FeaturePlanes& planes) const {
   if (!mImpl->distances) return;
-  const auto read = [&](detail::DistanceWindow& window) {
-    mImpl->sampler->readWindow(block, static_cast<float>(1 / mImpl->map.voxelSize()), window);
+  const auto read = [&](detail::DistanceStencil& stencil) {
+    mImpl->sampler->readDistances(block, static_cast<float>(1 / mImpl->map.voxelSize()), stencil);
   };
   detail::DistanceModel model = *mImpl->distances;
   if (mImpl->noise.hasSigma()) {

@@ -85,7 +85,7 @@ class LeafSigns {
   }
 
   void readLeaf(const ValueT* values, CellMask& inside, bool& allFinite) const {
-    forEachBlock(mLevel, kBlockSize,
+    forEachBatch(mLevel, kBlockSize,
                  [&](std::size_t x) { inside.word[x] = mReader.insideBits(values + 64 * x, allFinite); });
   }
 

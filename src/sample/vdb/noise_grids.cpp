@@ -29,29 +29,29 @@ std::size_t countRefused(const openvdb::GridBase& grid) {
 constexpr float kMost = 10;
 
 /// Of a companion grid, linear along the edge; what is negative or not finite counts as 0.
-float valueAt(const DistanceWindow& window, int low, int axis, float t) {
+float valueAt(const DistanceStencil& stencil, int low, int axis, float t) {
   const auto known = [&](int i) {
-    const float v = window.value[i];
+    const float v = stencil.value[i];
     return v >= 0 ? v : 0.0F;
   };
-  return (1 - t) * known(low) + t * known(low + DistanceWindow::kStep[axis]);
+  return (1 - t) * known(low) + t * known(low + DistanceStencil::kStep[axis]);
 }
 
-/// Where the window holds the low end of each edge: visit(edge, axis, index).
+/// Where the stencil holds the low end of each edge: visit(edge, axis, index).
 template <typename Visit>
 void forEachLow(const EdgeIndex& edges, Visit&& visit) {
-  edges.forEach([&](int i, int axis, int x, int y, int z) { visit(i, axis, DistanceWindow::index(x, y, z)); });
+  edges.forEach([&](int i, int axis, int x, int y, int z) { visit(i, axis, DistanceStencil::index(x, y, z)); });
 }
 
 /// The gradient's length where an edge crosses, per voxel along the lattice, from the differences that GridSource makes
 /// its normal of.
-float slopeAt(const DistanceWindow& values, int low, int axis, float t) {
+float slopeAt(const DistanceStencil& values, int low, int axis, float t) {
   const auto& v = values.value;
-  const int high = low + DistanceWindow::kStep[axis];
+  const int high = low + DistanceStencil::kStep[axis];
   const float along = v[high] - v[low];
   float squares = along * along;
   for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
-    const int s = DistanceWindow::kStep[other];
+    const int s = DistanceStencil::kStep[other];
     const float across = 0.5F * ((1 - t) * (v[low + s] - v[low - s]) + t * (v[high + s] - v[high - s]));
     if (std::isfinite(across)) squares += across * across;  // Not beside clamped values.
   }
@@ -88,10 +88,10 @@ std::unique_ptr<const GridSampler> NoiseGrids::open(const openvdb::GridBase::Con
 
 void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
                       const GridSampler& values, PlaneNoise& noise) const {
-  DistanceWindow window;
+  DistanceStencil stencil;
   if (mWeight != nullptr) {
-    mWeight->readWindow(block, 1, window);
-    forEachLow(edges, [&](int i, int axis, int low) { noise.weight[i] = valueAt(window, low, axis, hermite.t[i]); });
+    mWeight->readDistances(block, 1, stencil);
+    forEachLow(edges, [&](int i, int axis, int low) { noise.weight[i] = valueAt(stencil, low, axis, hermite.t[i]); });
   } else {
     std::fill_n(noise.weight.begin(), edges.size(), 1.0F);
   }
@@ -99,22 +99,22 @@ void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
     std::fill_n(noise.sigma.begin(), edges.size(), 0.0F);
     return;
   }
-  mSigma->readWindow(block, 1, window);
-  forEachLow(edges, [&](int i, int axis, int low) { noise.sigma[i] = valueAt(window, low, axis, hermite.t[i]); });
-  values.readWindow(block, 1, window);
+  mSigma->readDistances(block, 1, stencil);
+  forEachLow(edges, [&](int i, int axis, int low) { noise.sigma[i] = valueAt(stencil, low, axis, hermite.t[i]); });
+  values.readDistances(block, 1, stencil);
   forEachLow(edges, [&](int i, int axis, int low) {
     if (noise.sigma[i] == 0) return;
-    const float ratio = noise.sigma[i] / slopeAt(window, low, axis, hermite.t[i]);
+    const float ratio = noise.sigma[i] / slopeAt(stencil, low, axis, hermite.t[i]);
     noise.sigma[i] = std::min(stencilNoise(hermite.t[i]) * ratio, kMost);
   });
 }
 
 double NoiseGrids::largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const {
-  DistanceWindow window;
-  mSigma->readWindow(block, 1, window);
+  DistanceStencil stencil;
+  mSigma->readDistances(block, 1, stencil);
   float largest = 0;
   forEachLow(edges,
-             [&](int i, int axis, int low) { largest = std::max(largest, valueAt(window, low, axis, hermite.t[i])); });
+             [&](int i, int axis, int low) { largest = std::max(largest, valueAt(stencil, low, axis, hermite.t[i])); });
   return double{largest};
 }
 

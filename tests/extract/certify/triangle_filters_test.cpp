@@ -39,7 +39,7 @@ TEST(TriangleFilters, CertainSidesAreThoseOfThePredicate) {
     const TrianglePlane plane({3, 4, 5}, t);
     for (const SimdLevel level : {SimdLevel::kBaseline, bestSimdLevel()}) {
       std::array<Sides, 4> all, others;
-      forEachBlock(level, 1, [&](std::size_t) {
+      withSimd(level, [&] {
         all = plane.sides(Points(corners));
         others = plane.sides(vertices, Points(corners));
       });

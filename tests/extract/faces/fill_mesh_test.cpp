@@ -15,10 +15,11 @@ bool sameBytes(const Buffer<T>& a, const Buffer<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-Mesh fill(const HermiteSource& source, const ContourOptions& options, SimdLevel level) {
+Mesh fill(const HermiteSource& source, const detail::FillMeshOptions& options) {
   const SurfaceBlocks blocks = source.surfaceBlocks({});
+  const detail::Topology topology = detail::buildTopology(blocks, {});
   Mesh mesh;
-  fillMesh(source, blocks, detail::buildTopology(blocks, {}), options, mesh, nullptr, {}, level);
+  fillMesh({source, blocks, topology}, options, mesh, nullptr, {});
   return mesh;
 }
 
@@ -27,13 +28,15 @@ TEST(FillMesh, GivesTheSameBytesWithEveryInstructionSet) {
   std::bernoulli_distribution inside(0.5);
   SignSource source(30);
   for (int i = 0; i < 30 * 30 * 30; ++i) source.set(i / 900, i / 30 % 30, i % 30, inside(engine));
-  for (const Placement placement : {Placement::kCell, Placement::kFree})
+  for (const double halfSize : {detail::kCellHalfSize, detail::kFreeHalfSize})
     for (const double sigma : {0.0, 0.001, 0.05, 0.5}) {
-      const ContourOptions options{.sigmaNormal = sigma, .placement = placement, .normals = true};
-      const Mesh plain = fill(source, options, SimdLevel::kBaseline);
+      detail::FillMeshOptions options{
+          .sigma = sigma, .halfSize = halfSize, .normals = true, .level = SimdLevel::kBaseline};
+      const Mesh plain = fill(source, options);
       ASSERT_GT(plain.quads.size(), 10'000u);
       for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
-        const Mesh mesh = fill(source, options, level);
+        options.level = level;
+        const Mesh mesh = fill(source, options);
         EXPECT_TRUE(sameBytes(mesh.positions, plain.positions)) << sigma;
         EXPECT_TRUE(sameBytes(mesh.normals, plain.normals)) << sigma;
         EXPECT_TRUE(sameBytes(mesh.quads, plain.quads)) << sigma;

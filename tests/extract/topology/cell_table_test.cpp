@@ -121,7 +121,8 @@ TEST(CellTable, NoMeshEdgeIsUsedTwiceBetweenTwoCells) {
   EXPECT_GT(badWithoutRule, 0) << "the rule is not needed: the test does not bite";
 }
 
-/// The 3×3×2 points about a lattice edge along z: four cells in ring order, and the central quad's use of each of them.
+/// The 3×3×2 points about a lattice edge along z: four cells in order about the edge, and the central quad's use of
+/// each of them.
 class EdgeNeighbourhood {
  public:
   explicit EdgeNeighbourhood(unsigned bits) : mLattice{3, 3, 2, bits} {

@@ -32,7 +32,7 @@ Mesh contourWithoutRule(const SignSource& source) {
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   const detail::Topology topology = detail::buildTopology(blocks, {}, detail::FlipRule::kNever);
   Mesh mesh;
-  detail::fillMesh(source, blocks, topology, {.sigmaNormal = 0.1}, mesh, nullptr, {});
+  detail::fillMesh({source, blocks, topology}, {.sigma = 0.1, .halfSize = detail::kFreeHalfSize}, mesh, nullptr, {});
   return mesh;
 }
 

@@ -13,7 +13,7 @@
 namespace pdc::detail {
 namespace {
 
-constexpr PlaneTolerance kTolerance{.error = 0.04F, .usual = 0.001F, .kink = 0.01F};
+constexpr PlaneTolerance kTolerance{.error = 0.04F, .usual = 0.001F, .jump = 0.01F};
 
 Vec3d unit(Vec3d v) { return v * (1 / length(v)); }
 
@@ -32,12 +32,12 @@ double wedge(const Vec3d& p) {
 
 double ball(const Vec3d& p) { return length(p - Vec3d{-9, 3, 2}) - 13; }
 
-DistanceWindow window(const std::function<double(const Vec3d&)>& distance) {
-  DistanceWindow w;
+DistanceStencil stencil(const std::function<double(const Vec3d&)>& distance) {
+  DistanceStencil w;
   for (int x = -3; x <= 11; ++x)
     for (int y = -3; y <= 11; ++y)
       for (int z = -3; z <= 11; ++z)
-        w.value[DistanceWindow::index(x, y, z)] = static_cast<float>(distance({double(x), double(y), double(z)}));
+        w.value[DistanceStencil::index(x, y, z)] = static_cast<float>(distance({double(x), double(y), double(z)}));
   return w;
 }
 
@@ -45,7 +45,7 @@ double degrees(const Vec3f& a, const Vec3d& b) {
   return std::acos(std::min(1.0, dot(vecCast<double>(a), b))) * 180 / 3.14159265358979323846;
 }
 
-SurfaceSamples samplesAbout(const DistanceWindow& w, const Coord& cell, const Mat3f& M = Mat3f::identity(),
+SurfaceSamples samplesAbout(const DistanceStencil& w, const Coord& cell, const Mat3f& M = Mat3f::identity(),
                             SimdLevel level = bestSimdLevel()) {
   const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, M, level);
   SurfaceSamples samples;
@@ -60,7 +60,7 @@ Vec3d fromTip(const SurfaceSamples& samples, int i) {
 }
 
 TEST(VoxelPlanes, APlaneIsFoundExactly) {
-  const SurfaceSamples samples = samplesAbout(window([](const Vec3d& p) { return dot(p - kTip, kLeft); }), {4, 4, 4});
+  const SurfaceSamples samples = samplesAbout(stencil([](const Vec3d& p) { return dot(p - kTip, kLeft); }), {4, 4, 4});
   ASSERT_EQ(samples.count, 64);
   for (int i = 0; i < samples.count; ++i) {
     EXPECT_LT(degrees(samples.normal(i), kLeft), 0.05);
@@ -69,7 +69,7 @@ TEST(VoxelPlanes, APlaneIsFoundExactly) {
 }
 
 TEST(VoxelPlanes, BesideAnEdgeTrustedPlanesAreThoseOfItsSides) {
-  const SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4});
+  const SurfaceSamples samples = samplesAbout(stencil(wedge), {4, 4, 4});
   int left = 0, right = 0;
   for (int i = 0; i < samples.count; ++i) {
     if (!(samples.column[SurfaceSamples::kTrust][i] > 0.5F * samples.column[SurfaceSamples::kWeight][i])) continue;
@@ -87,7 +87,7 @@ TEST(VoxelPlanes, BesideAnEdgeTrustedPlanesAreThoseOfItsSides) {
 
 TEST(VoxelPlanes, StretchedLatticesGiveTheSamePlanes) {
   // One lattice step along x is half a voxel, along y two.
-  const auto w = window([](const Vec3d& p) { return dot(Vec3d{0.5 * p.x, 2 * p.y, p.z} - kTip, kLeft); });
+  const auto w = stencil([](const Vec3d& p) { return dot(Vec3d{0.5 * p.x, 2 * p.y, p.z} - kTip, kLeft); });
   const SurfaceSamples samples = samplesAbout(w, {5, 2, 3}, Mat3f::diagonal(0.5F, 2, 1));
   ASSERT_EQ(samples.count, 64);
   const Vec3d center{0.5 * 5.5, 2 * 2.5, 3.5};
@@ -99,12 +99,12 @@ TEST(VoxelPlanes, StretchedLatticesGiveTheSamePlanes) {
 
 TEST(VoxelPlanes, WhatIsNoDistanceGivesNone) {
   const SurfaceSamples samples =
-      samplesAbout(window([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); }), {4, 4, 4});
+      samplesAbout(stencil([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); }), {4, 4, 4});
   for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kWeight][i], 0);
 }
 
 TEST(VoxelPlanes, DoNotDependOnOtherCells) {
-  const DistanceWindow w = window(wedge);
+  const DistanceStencil w = stencil(wedge);
   const Coord cell{4, 4, 4};
   const SurfaceSamples alone = samplesAbout(w, cell);
   const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, Mat3f::identity());
@@ -120,7 +120,7 @@ TEST(VoxelPlanes, DoNotDependOnOtherCells) {
 }
 
 TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
-  const DistanceWindow w = window(wedge);
+  const DistanceStencil w = stencil(wedge);
   const SurfaceSamples best = samplesAbout(w, {4, 4, 4}),
                        baseline = samplesAbout(w, {4, 4, 4}, Mat3f::identity(), SimdLevel::kBaseline);
   ASSERT_EQ(best.count, baseline.count);
@@ -128,53 +128,53 @@ TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
     for (int i = 0; i < best.count; ++i) EXPECT_EQ(best.column[c][i], baseline.column[c][i]);
 }
 
-TEST(SurfaceSides, AnEdgeHasTwoThatMeetOnIt) {
-  SurfaceSamples samples = samplesAbout(window(wedge), {4, 4, 4}), again = samples;
-  const SurfaceSides sides = findSides(samples, 0);
-  ASSERT_GE(sides.count, 2);
-  EXPECT_LT(std::min(degrees(vecCast<float>(sides.side[0].normal), kLeft),
-                     degrees(vecCast<float>(sides.side[0].normal), kRight)),
+TEST(CreaseSheets, AnEdgeHasTwoThatMeetOnIt) {
+  SurfaceSamples samples = samplesAbout(stencil(wedge), {4, 4, 4}), again = samples;
+  const CreaseSheets sheets = findSheets(samples, 0);
+  ASSERT_GE(sheets.count, 2);
+  EXPECT_LT(std::min(degrees(vecCast<float>(sheets.sheet[0].normal), kLeft),
+                     degrees(vecCast<float>(sheets.sheet[0].normal), kRight)),
             1);
-  const Vec3d meeting = meetingPoint(sides.all().first(2), {}, 0.01) + Vec3d{4.5, 4.5, 4.5} - kTip,
+  const Vec3d meeting = meetingPoint(sheets.all().first(2), {}, 0.01) + Vec3d{4.5, 4.5, 4.5} - kTip,
               along = unit(cross(kLeft, kRight));
   EXPECT_LT(length(meeting - along * dot(meeting, along)), 0.01);
 
-  const SurfaceSides baseline = findSides(again, 0, SimdLevel::kBaseline);
-  ASSERT_EQ(sides.count, baseline.count);
-  for (int i = 0; i < sides.count; ++i) {
-    EXPECT_EQ(sides.side[i].center, baseline.side[i].center);
-    EXPECT_EQ(sides.side[i].normal, baseline.side[i].normal);
-    EXPECT_EQ(sides.side[i].weight, baseline.side[i].weight);
+  const CreaseSheets baseline = findSheets(again, 0, SimdLevel::kBaseline);
+  ASSERT_EQ(sheets.count, baseline.count);
+  for (int i = 0; i < sheets.count; ++i) {
+    EXPECT_EQ(sheets.sheet[i].center, baseline.sheet[i].center);
+    EXPECT_EQ(sheets.sheet[i].normal, baseline.sheet[i].normal);
+    EXPECT_EQ(sheets.sheet[i].weight, baseline.sheet[i].weight);
   }
 }
 
-TEST(SurfaceSides, LightOnesAreDropped) {
-  SurfaceSides sides;
-  for (const double weight : {0.3, 2.0, 0.1}) sides.side[sides.count++].weight = weight;
-  sides.dropLight(0.05);
-  EXPECT_EQ(sides.count, 3);
-  sides.dropLight(0.1);
-  ASSERT_EQ(sides.count, 2);
-  EXPECT_EQ(sides.side[0].weight, 0.3);
-  EXPECT_EQ(sides.side[1].weight, 2.0);
+TEST(CreaseSheets, LightOnesAreDropped) {
+  CreaseSheets sheets;
+  for (const double weight : {0.3, 2.0, 0.1}) sheets.sheet[sheets.count++].weight = weight;
+  sheets.dropLight(0.05);
+  EXPECT_EQ(sheets.count, 3);
+  sheets.dropLight(0.1);
+  ASSERT_EQ(sheets.count, 2);
+  EXPECT_EQ(sheets.sheet[0].weight, 0.3);
+  EXPECT_EQ(sheets.sheet[1].weight, 2.0);
 }
 
-TEST(Kinks, SmoothSurfacesHaveNone) {
-  const DistanceWindow w = window(ball);
-  Kinks kinks(w, kTolerance.kink);
+TEST(GradientJumps, SmoothSurfacesHaveNone) {
+  const DistanceStencil w = stencil(ball);
+  GradientJumps jumps(w, kTolerance.jump);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
-      for (int z = 0; z < 8; ++z) EXPECT_TRUE(kinks.noneAt({x, y, z}));
+      for (int z = 0; z < 8; ++z) EXPECT_TRUE(jumps.noneAt({x, y, z}));
 }
 
-TEST(Kinks, CellsAtAnEdgeHaveSome) {
-  const DistanceWindow w = window(wedge);
-  EXPECT_FALSE(Kinks(w, kTolerance.kink).noneAt({4, 4, 4}));
+TEST(GradientJumps, CellsAtAnEdgeHaveSome) {
+  const DistanceStencil w = stencil(wedge);
+  EXPECT_FALSE(GradientJumps(w, kTolerance.jump).noneAt({4, 4, 4}));
 }
 
-TEST(Kinks, DoNotDependOnTheProcessor) {
-  const DistanceWindow w = window(wedge);
-  Kinks best(w, kTolerance.kink), baseline(w, kTolerance.kink, SimdLevel::kBaseline);
+TEST(GradientJumps, DoNotDependOnTheProcessor) {
+  const DistanceStencil w = stencil(wedge);
+  GradientJumps best(w, kTolerance.jump), baseline(w, kTolerance.jump, SimdLevel::kBaseline);
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAt({x, y, z}), baseline.noneAt({x, y, z}));

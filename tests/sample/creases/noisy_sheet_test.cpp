@@ -37,7 +37,7 @@ struct Paraboloid {
   std::array<float, SurfaceSamples::kCapacity> share{};
 };
 
-SurfaceSide tilted(const Paraboloid& p, double slope) {
+CreaseSheet tilted(const Paraboloid& p, double slope) {
   Vec3d normal = p.n + p.e1 * slope;
   normal *= 1 / length(normal);
   return {{0.1, 0.05, -0.1}, normal, {}, 0, 80};
@@ -45,9 +45,9 @@ SurfaceSide tilted(const Paraboloid& p, double slope) {
 
 TEST(NoisySide, FindsAPlaneFromATiltedStart) {
   const Paraboloid p(0, 0, 1);
-  const SurfaceSide side = fitNoisySide(p.samples, p.share.data(), tilted(p, 0.02), 0.01);
-  EXPECT_GT(dot(side.normal, p.n), 1 - 1e-8);
-  EXPECT_NEAR(side.value({}), 0, 1e-5);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), tilted(p, 0.02), 0.01);
+  EXPECT_GT(dot(sheet.normal, p.n), 1 - 1e-8);
+  EXPECT_NEAR(sheet.value({}), 0, 1e-5);
 }
 
 TEST(NoisySide, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
@@ -58,9 +58,9 @@ TEST(NoisySide, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
     Vec3d normal{};
     for (int i = 0; i < p.samples.count; ++i) normal += vecCast<double>(p.samples.normal(i));
     normal *= 1 / length(normal);
-    const SurfaceSide start{{}, normal, {}, 0, 80};
-    const SurfaceSide side = fitNoisySide(p.samples, p.share.data(), start, kNormalNoise * kNoise);
-    fitted += length(side.normal - p.n);
+    const CreaseSheet start{{}, normal, {}, 0, 80};
+    const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), start, kNormalNoise * kNoise);
+    fitted += length(sheet.normal - p.n);
     mean += length(normal - p.n);
   }
   EXPECT_LT(fitted, 0.6 * mean);
@@ -68,18 +68,18 @@ TEST(NoisySide, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
 
 TEST(NoisySide, KeepsABendThatManySamplesShow) {
   const Paraboloid p(0.05, 0.001, 3);
-  const SurfaceSide side = fitNoisySide(p.samples, p.share.data(), tilted(p, 0), kNormalNoise * 0.001);
-  EXPECT_NEAR(dot(p.e1, side.bend * p.e1), -0.05, 0.01);
-  EXPECT_NEAR(dot(p.e2, side.bend * p.e2), -0.05, 0.01);
-  EXPECT_NEAR(dot(side.normal, side.bend * side.normal), 0, 1e-4);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), tilted(p, 0), kNormalNoise * 0.001);
+  EXPECT_NEAR(dot(p.e1, sheet.bend * p.e1), -0.05, 0.01);
+  EXPECT_NEAR(dot(p.e2, sheet.bend * p.e2), -0.05, 0.01);
+  EXPECT_NEAR(dot(sheet.normal, sheet.bend * sheet.normal), 0, 1e-4);
 }
 
 TEST(NoisySide, SimdLevelsAgree) {
   const Paraboloid p(0.02, 0.02, 5);
   const auto fit = [&](SimdLevel level) {
-    return fitNoisySide(p.samples, p.share.data(), tilted(p, 0.02), 0.08, level);
+    return fitNoisySheet(p.samples, p.share.data(), tilted(p, 0.02), 0.08, level);
   };
-  const SurfaceSide base = fit(SimdLevel::kBaseline);
+  const CreaseSheet base = fit(SimdLevel::kBaseline);
   for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
     EXPECT_EQ(fit(level).normal, base.normal);
     EXPECT_EQ(fit(level).offset, base.offset);

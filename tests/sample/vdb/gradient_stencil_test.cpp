@@ -10,41 +10,42 @@
 namespace pdc {
 namespace {
 
-using detail::Halo;
+using detail::GradientStencil;
 using detail::SlopeLimits;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr SlopeLimits kNoLimits{-kInfinity, kInfinity};
 
-BlockSigns signsOf(const Halo& halo) {
+BlockSigns signsOf(const GradientStencil& stencil) {
   BlockSigns signs;
   for (int x = 0; x < kBlockPoints; ++x)
     for (int y = 0; y < kBlockPoints; ++y)
       for (int z = 0; z < kBlockPoints; ++z)
-        if (halo.value[Halo::index(x, y, z)] < 0)
+        if (stencil.value[GradientStencil::index(x, y, z)] < 0)
           signs.row[kBlockPoints * x + y] = static_cast<std::uint16_t>(signs.row[kBlockPoints * x + y] | 1u << z);
   return signs;
 }
 
 template <typename F>
-Halo sample(const F& f) {
-  Halo halo;
-  for (int x = -1; x < Halo::kPoints - 1; ++x)
-    for (int y = -1; y < Halo::kPoints - 1; ++y)
-      for (int z = -1; z < Halo::kPoints - 1; ++z) halo.value[Halo::index(x, y, z)] = f(x, y, z);
-  return halo;
+GradientStencil sample(const F& f) {
+  GradientStencil stencil;
+  for (int x = -1; x < GradientStencil::kPoints - 1; ++x)
+    for (int y = -1; y < GradientStencil::kPoints - 1; ++y)
+      for (int z = -1; z < GradientStencil::kPoints - 1; ++z)
+        stencil.value[GradientStencil::index(x, y, z)] = f(x, y, z);
+  return stencil;
 }
 
-TEST(FillFromHalo, FindsThePlaneOfALinearFunction) {
+TEST(FillFromStencil, FindsThePlaneOfALinearFunction) {
   const Vec3d n = Vec3d{2, -3, 6} * (1.0 / 7);
   const auto f = [&](int x, int y, int z) {
     return static_cast<float>(dot(n, Vec3d{double(x), double(y), double(z)}) - 2.1);
   };
-  const Halo halo = sample(f);
-  const EdgeIndex edges(signsOf(halo));
+  const GradientStencil stencil = sample(f);
+  const EdgeIndex edges(signsOf(stencil));
   ASSERT_GT(edges.size(), 50);
   HermiteBlock hermite;
-  fillFromHalo(halo, edges, kNoLimits, Mat3f::identity(), hermite);
+  fillFromStencil(stencil, edges, kNoLimits, Mat3f::identity(), hermite);
   edges.forEach([&](int i, int axis, int x, int y, int z) {
     Vec3d p{double(x), double(y), double(z)};
     p[axis] += hermite.t[i];
@@ -54,13 +55,13 @@ TEST(FillFromHalo, FindsThePlaneOfALinearFunction) {
 }
 
 // Values of a hundred orders of magnitude, clamped, infinite and undefined ones beside each other.
-TEST(FillFromHalo, GivesUnitNormalsOrNoneAndTheSameBitsWithEveryInstructionSet) {
+TEST(FillFromStencil, GivesUnitNormalsOrNoneAndTheSameBitsWithEveryInstructionSet) {
   std::mt19937 engine(3);
   std::uniform_int_distribution<int> kind(0, 19);
   std::normal_distribution<float> value;
   std::uniform_real_distribution<float> exponent(-40, 38);
   for (int round = 0; round < 50; ++round) {
-    const Halo halo = sample([&](int, int, int) {
+    const GradientStencil stencil = sample([&](int, int, int) {
       switch (kind(engine)) {
         case 0:
           return kInfinity;
@@ -74,18 +75,18 @@ TEST(FillFromHalo, GivesUnitNormalsOrNoneAndTheSameBitsWithEveryInstructionSet) 
           return value(engine);
       }
     });
-    const EdgeIndex edges(signsOf(halo));
+    const EdgeIndex edges(signsOf(stencil));
     const SlopeLimits limits = round % 2 == 0 ? kNoLimits : SlopeLimits{-2.9F, 2.9F};
     const Mat3f map = Mat3f::diagonal(1, -2, 0.5F);
     HermiteBlock plain, other;
-    fillFromHalo(halo, edges, limits, map, plain, SimdLevel::kBaseline);
+    fillFromStencil(stencil, edges, limits, map, plain, SimdLevel::kBaseline);
     for (int i = 0; i < edges.size(); ++i) {
       ASSERT_TRUE(plain.t[i] >= 0 && plain.t[i] <= 1);
       const float l = length(Vec3f{plain.nx[i], plain.ny[i], plain.nz[i]});
       ASSERT_TRUE(l == 0 || std::abs(l - 1) < 1e-6F) << l;
     }
     for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
-      fillFromHalo(halo, edges, limits, map, other, level);
+      fillFromStencil(stencil, edges, limits, map, other, level);
       const auto same = [&](const auto& a, const auto& b) {
         return std::memcmp(a.data(), b.data(), sizeof(float) * static_cast<std::size_t>(edges.size())) == 0;
       };

@@ -34,7 +34,7 @@ class NoiseGridsTest : public testing::Test {
 
   /// Calls visit(noise, hermite, edges) for each block.
   template <typename Visit>
-  static void forEachBlock(const GridSource& source, Visit&& visit) {
+  static void forEachBatch(const GridSource& source, Visit&& visit) {
     const SurfaceBlocks blocks = source.surfaceBlocks({});
     const auto hermite = std::make_unique<HermiteBlock>();
     const auto noise = std::make_unique<PlaneNoise>();
@@ -61,7 +61,7 @@ TEST_F(NoiseGridsTest, SigmaIsPropagatedToNormals) {
   const GridSource source(mGrid, {.sigma = companion(*mGrid, 0.2F * kVoxel)});
   EXPECT_TRUE(source.knowsNoise());
   EXPECT_TRUE(source.knowsSigma());
-  forEachBlock(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
+  forEachBatch(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
     for (int i = 0; i < edges.size(); ++i) {
       ASSERT_NEAR(noise.sigma[i], 0.2 * 0.95, 0.2 * 0.08);
       ASSERT_EQ(noise.weight[i], 1);
@@ -78,7 +78,7 @@ TEST_F(NoiseGridsTest, ValuesAreTakenAlongTheEdge) {
   std::size_t between = 0;
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   std::size_t block = 0;
-  forEachBlock(source, [&](const PlaneNoise& noise, const HermiteBlock& hermite, const EdgeIndex& edges) {
+  forEachBatch(source, [&](const PlaneNoise& noise, const HermiteBlock& hermite, const EdgeIndex& edges) {
     const int origin = 8 * blocks.coords[block++][0];
     edges.forEach([&](int i, int axis, int x, int, int) {
       const float at = static_cast<float>(origin + x + 100) + (axis == 0 ? hermite.t[i] : 0.0F);
@@ -93,7 +93,7 @@ TEST_F(NoiseGridsTest, ValuesAreTakenAlongTheEdge) {
 TEST_F(NoiseGridsTest, OutsideOfActiveVoxelsIsTheBackground) {
   const auto sigma = FloatGrid::create(0.3F * kVoxel);
   sigma->setTransform(mGrid->transformPtr());
-  forEachBlock(GridSource(mGrid, {.sigma = sigma}),
+  forEachBatch(GridSource(mGrid, {.sigma = sigma}),
                [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
                  for (int i = 0; i < edges.size(); ++i) ASSERT_NEAR(noise.sigma[i], 0.3 * 0.95, 0.3 * 0.08);
                });
@@ -106,7 +106,7 @@ TEST_F(NoiseGridsTest, NegativeAndNonFiniteValuesCountAsZeroAndAreCounted) {
     it.setValue(n++ % 2 == 0 ? -1 : std::numeric_limits<float>::quiet_NaN());
   const GridSource source(mGrid, {.weight = weight});
   EXPECT_EQ(source.refusedNoise(), static_cast<std::size_t>(n));
-  forEachBlock(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
+  forEachBatch(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
     for (int i = 0; i < edges.size(); ++i) ASSERT_EQ(noise.weight[i], 0);
   });
   // All crossings then count the same.

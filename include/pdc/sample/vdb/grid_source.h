@@ -65,7 +65,7 @@ class GridSource final : public HermiteSource {
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
   void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                    HermiteBlock& hermite) const override;
-  void expect(const Coord& block) const override;
+  void prefetch(const Coord& block) const override;
   void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
                          const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
                          FeaturePlanes& planes) const override;
