@@ -8,6 +8,7 @@
 
 #include "extract/certify/certify.h"
 #include "extract/faces/fill_mesh.h"
+#include "extract/topology/continuation.h"
 #include "extract/topology/surface.h"
 #include "extract/vertex_confidence.h"
 #include "parallel/with_threads.h"
@@ -41,13 +42,14 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   if (!std::is_sorted(blocks.coords.begin(), blocks.coords.end()))
     throw std::invalid_argument("contour: the source's blocks are not sorted");
   const detail::Topology topology = detail::buildTopology(blocks, monitor);
+  detail::checkContinuation(blocks, topology);
   detail::checkVertexCount(topology.vertexCount);
   const detail::Surface surface{source, blocks, topology};
   Mesh mesh;
   const bool promised = options.placement != Placement::kFree;
   detail::Suspects suspects;
-  const detail::SigmaNormal sigma = options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal)
-                                                        : detail::SigmaNormal::fromData(source, blocks, monitor);
+  const auto sigmaFromData = [&] { return detail::SigmaNormal::fromData(source, blocks, monitor); };
+  const detail::SigmaNormal sigma = options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal) : sigmaFromData();
   const detail::FillMeshOptions fill{
       .sigma = sigma,
       .halfSize = options.placement == Placement::kCell ? detail::kCellHalfSize : detail::kFreeHalfSize,
@@ -55,7 +57,8 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   const detail::VertexCounts counts = fillMesh(surface, fill, mesh, promised ? &suspects : nullptr, monitor);
   detail::CertifyCounts certified;
   if (promised) certified = certify(surface, suspects, mesh, monitor);
-  if (options.confidence || options.ranks) addVertexConfidence(surface, options, mesh, monitor);
+  if (options.confidence || options.ranks)
+    addVertexConfidence(surface, (options.sigmaNormal ? sigmaFromData() : sigma).noise(), options, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),

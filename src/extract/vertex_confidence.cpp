@@ -7,13 +7,13 @@
 #include <cmath>
 #include <memory>
 
-#include "extract/topology/patch_list.h"
-#include "extract/vertices/sigma_normal.h"
-#include "extract/vertices/vertex_solver.h"
+#include "extract/vertices/block_sampler.h"
+#include "extract/vertices/cell_metric.h"
+#include "extract/vertices/patch_samples.h"
 #include "mesh/faces.h"
 #include "parallel/block_progress.h"
 #include "pdc/math/solvers.h"
-#include "sample/patch_edges.h"
+#include "sample/cell_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -85,9 +85,9 @@ class BlockRater {
   /// \param normalNoise of the source's normals: noise of values turns normals by about as much as it moves crossings,
   /// in voxels.
   BlockRater(const HermiteSource& source, double normalNoise)
-      : mSource(source),
-        mMap(source.map()),
-        mNoise(source.knowsSigma() ? std::make_unique<PlaneNoise>() : nullptr),
+      : mMap(source.map()),
+        mSampler(source),
+        mKnowsSigma(source.knowledge().noise == SourceKnowledge::Noise::kSigma),
         mNormalVariance(square(normalNoise)) {}
 
   void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const Mesh& mesh,
@@ -95,27 +95,25 @@ class BlockRater {
     const EdgeIndex edges(signs);
     const Vec3d origin = blockOrigin(block);
     const CellMetric metric = blockMetric(mMap, origin);
-    mSource.fillHermite(block, signs, edges, mHermite);
-    if (mNoise != nullptr) mSource.fillNoise(block, edges, mHermite, *mNoise);
-    mPatches.fill(topology, signs);
-    mFeatures.clear();
-    mSource.fillFeaturePlanes(block, signs, edges, mHermite, mPatches.patches(), mFeatures);
+    mSampler.run({block, signs, edges}, topology);
+    const PatchList& patches = mSampler.patches();
+    const FeaturePlanes& features = mSampler.features();
     const Mat3d toWorld = inverse(metric.M).transposed();
-    for (std::size_t i = 0; i < mPatches.size(); ++i) {
+    for (std::size_t i = 0; i < patches.size(); ++i) {
       const std::uint64_t vertex = topology.firstVertex + i;
       const Vec3d at = vecCast<double>(mesh.positions[vertex]);
       Planes planes;
       const auto add = [&](const Vec3d& n, const Vec3d& point) {
         planes.add(n, dot(n, at - mMap.position(origin + point)) / metric.voxelSize);
       };
-      const FeaturePlanes::Patch* feature = mFeatures.find(i);
+      const FeaturePlanes::Patch* feature = features.find(i);
       if (feature != nullptr) {
         planes.known = square(kPlaneError * static_cast<double>(feature->sigmaNormal));
-        for (const FeaturePlanes::Plane& p : mFeatures.of(*feature))
+        for (const FeaturePlanes::Plane& p : features.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
       } else {
-        planes.known = mNoise != nullptr ? meanVariance(mPatches[i], edges) : mNormalVariance;
-        addCrossings(mPatches[i], edges, add);
+        planes.known = mKnowsSigma ? meanVariance(patches[i], edges) : mNormalVariance;
+        addCrossings(patches[i], edges, add);
       }
       ratings[vertex] = rate(planes);
       ratings[vertex].onCrease = feature != nullptr && feature->count > 1;
@@ -127,27 +125,25 @@ class BlockRater {
   /// distance too.
   [[nodiscard]] double meanVariance(const SurfacePatch& patch, const EdgeIndex& edges) const {
     double sum = 0;
-    forEachEdge(patch, edges, [&](int /*e*/, int i) { sum += square(mNoise->sigma[i]); });
+    forEachEdge(patch, edges, [&](int /*e*/, int i) { sum += square(mSampler.noise()->sigma[i]); });
     return sum / std::popcount(patch.edges);
   }
 
   template <typename Add>
   void addCrossings(const SurfacePatch& patch, const EdgeIndex& edges, const Add& add) const {
-    const Coord cell = cellOf(patch);
+    const HermiteBlock& hermite = mSampler.hermite();
+    const Coord cell = patch.cell.low();
     forEachEdge(patch, edges, [&](int e, int i) {
       Vec3d point = Vec3d{double(cell[0]), double(cell[1]), double(cell[2])} + cornerPlace(kCellEdge[e].low);
-      point[kCellEdge[e].axis] += mHermite.t[i];
-      add(Vec3d{mHermite.nx[i], mHermite.ny[i], mHermite.nz[i]}, point);
+      point[kCellEdge[e].axis] += hermite.t[i];
+      add(Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]}, point);
     });
   }
 
-  const HermiteSource& mSource;
   const LatticeMap& mMap;
-  const std::unique_ptr<PlaneNoise> mNoise;  ///< Null: the source knows none.
+  BlockSampler mSampler;
+  const bool mKnowsSigma;  ///< The source knows the noise of each normal.
   const double mNormalVariance;
-  HermiteBlock mHermite;
-  PatchList mPatches;
-  FeaturePlanes mFeatures;
 };
 
 /// Calls visit(a, b) for all ordered pairs of vertices of each face.
@@ -190,13 +186,12 @@ std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
 
 }  // namespace
 
-void addVertexConfidence(const Surface& surface, const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
+void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
+                         const Monitor& monitor) {
   const auto& [source, blocks, topology] = surface;
   Buffer<Rating> ratings(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
-      [&, noise = SigmaNormal::fromData(source, blocks, monitor).noise()] {
-        return std::make_unique<BlockRater>(source, noise);
-      });
+      [&] { return std::make_unique<BlockRater>(source, normalNoise); });
   BlockProgress progress(monitor, "confidence", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
     BlockRater& rater = *raters.local();

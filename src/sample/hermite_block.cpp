@@ -26,7 +26,7 @@ EdgeIndex::EdgeIndex(const BlockSigns& signs) {
 void EdgeIndex::fill(const BlockSigns& signs) {
   int n = 0;
   // Numbers the edges along `axis` whose low ends are in a plane; rowBits(y) says which of a row change sign.
-  const auto addPlane = [&](int axis, int x, auto&& rowBits) {
+  const auto addPlane = [&](Axis axis, int x, auto&& rowBits) {
     for (int first = 0; first < kBlockPoints; first += kRowsPerWord) {
       std::uint64_t word = 0;
       for (int y = first; y < kBlockPoints && y < first + kRowsPerWord; ++y)
@@ -44,17 +44,17 @@ void EdgeIndex::fill(const BlockSigns& signs) {
   const auto& row = signs.row;
   for (int x = 0; x < kBlockSize; ++x) {
     const std::uint16_t* r = &row[kBlockPoints * x];
-    addPlane(0, x, [r](int y) -> unsigned { return r[y] ^ r[y + kBlockPoints]; });
+    addPlane(kAxisX, x, [r](int y) -> unsigned { return r[y] ^ r[y + kBlockPoints]; });
   }
   mStart[1] = n;
   for (int x = 0; x < kBlockPoints; ++x) {
     const std::uint16_t* r = &row[kBlockPoints * x];
-    addPlane(1, x, [r](int y) -> unsigned { return y < kBlockSize ? r[y] ^ r[y + 1] : 0; });
+    addPlane(kAxisY, x, [r](int y) -> unsigned { return y < kBlockSize ? r[y] ^ r[y + 1] : 0; });
   }
   mStart[2] = n;
   for (int x = 0; x < kBlockPoints; ++x) {
     const std::uint16_t* r = &row[kBlockPoints * x];
-    addPlane(2, x, [r](int y) -> unsigned { return (r[y] ^ r[y] >> 1) & kLowerEnds; });
+    addPlane(kAxisZ, x, [r](int y) -> unsigned { return (r[y] ^ r[y] >> 1) & kLowerEnds; });
   }
   mStart[3] = n;
 }

@@ -31,7 +31,7 @@ SampledSource::SampledSource(const HermiteSource& source, const Monitor& monitor
     HermiteBlock& hermite = *scratch.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const EdgeIndex edges(mBlocks.signs[i]);
-      source.fillHermite(mBlocks.coords[i], mBlocks.signs[i], edges, hermite);
+      source.fillHermite({mBlocks.coords[i], mBlocks.signs[i], edges}, hermite);
       Crossing* out = mCrossings.data() + mFirst[i];
       for (int e = 0; e < edges.size(); ++e) out[e] = {hermite.t[e], hermite.nx[e], hermite.ny[e], hermite.nz[e]};
     }
@@ -45,23 +45,16 @@ SurfaceBlocks SampledSource::surfaceBlocks(const Monitor& monitor) const {
   return mBlocks;
 }
 
-void SampledSource::fillHermite(const Coord& block, const BlockSigns& /*signs*/, const EdgeIndex& edges,
-                                HermiteBlock& hermite) const {
-  const auto i = static_cast<std::size_t>(std::lower_bound(mBlocks.coords.begin(), mBlocks.coords.end(), block) -
-                                          mBlocks.coords.begin());
+void SampledSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
+  const auto& coords = mBlocks.coords;
+  const auto i = static_cast<std::size_t>(std::lower_bound(coords.begin(), coords.end(), block.coord) - coords.begin());
   const Crossing* in = mCrossings.data() + mFirst[i];
-  for (int e = 0; e < edges.size(); ++e) {
+  for (int e = 0; e < block.edges.size(); ++e) {
     hermite.t[e] = in[e].t;
     hermite.nx[e] = in[e].nx;
     hermite.ny[e] = in[e].ny;
     hermite.nz[e] = in[e].nz;
   }
-}
-
-void SampledSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                                      const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
-                                      FeaturePlanes& planes) const {
-  mSource.fillFeaturePlanes(block, signs, edges, hermite, patches, planes);
 }
 
 }  // namespace pdc

@@ -24,13 +24,13 @@ template <typename Visit>
 void forEachSurfaceSquare(const HermiteSource& source, const Coord& block, const BlockSigns& signs,
                           HermiteBlock& hermite, Visit&& visit) {
   const EdgeIndex edges(signs);
-  source.fillHermite(block, signs, edges, hermite);
-  const auto changes = [&](int axis, const Coord& p) {
+  source.fillHermite({block, signs, edges}, hermite);
+  const auto changes = [&](Axis axis, const Coord& p) {
     Coord q = p;
     ++q[axis];
     return signs.inside(p[0], p[1], p[2]) != signs.inside(q[0], q[1], q[2]);
   };
-  const auto crossing = [&](int axis, const Coord& p) -> SurfacePoint {
+  const auto crossing = [&](Axis axis, const Coord& p) -> SurfacePoint {
     const int i = edges(axis, p[0], p[1], p[2]);
     Vec3d x{double(kBlockSize * block[0] + p[0]), double(kBlockSize * block[1] + p[1]),
             double(kBlockSize * block[2] + p[2])};
@@ -40,15 +40,15 @@ void forEachSurfaceSquare(const HermiteSource& source, const Coord& block, const
   for (int x = 0; x < kBlockSize; ++x)
     for (int y = 0; y < kBlockSize; ++y)
       for (int z = 0; z < kBlockSize; ++z)
-        for (int normal = 0; normal < 3; ++normal) {
-          const int u = (normal + 1) % 3, v = (normal + 2) % 3;
+        for (const Axis normal : kAxes) {
+          const Axis u = nextAxis(normal), v = lastAxis(normal);
           const Coord low{x, y, z};
           Coord beyondU = low, beyondV = low;
           ++beyondU[u];
           ++beyondV[v];
           std::array<SurfacePoint, 2> found;
           int count = 0;
-          const auto look = [&](int axis, const Coord& p) {
+          const auto look = [&](Axis axis, const Coord& p) {
             if (changes(axis, p) && count++ < 2) found[count - 1] = crossing(axis, p);
           };
           look(u, low);

@@ -35,10 +35,10 @@ class SignSource final : public HermiteSource {
     return out;
   }
 
-  void fillHermite(const Coord& block, const BlockSigns&, const EdgeIndex& edges,
-                   HermiteBlock& hermite) const override {
-    edges.forEach([&](int i, int axis, int x, int y, int z) {
-      std::uint64_t h = hash(axis, block[0] * kBlockSize + x, block[1] * kBlockSize + y, block[2] * kBlockSize + z);
+  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override {
+    block.edges.forEach([&](int i, int axis, int x, int y, int z) {
+      const Coord& b = block.coord;
+      std::uint64_t h = hash(axis, b[0] * kBlockSize + x, b[1] * kBlockSize + y, b[2] * kBlockSize + z);
       const auto uniform = [&h] {
         h = h * 6364136223846793005ull + 1442695040888963407ull;
         return static_cast<double>(h >> 11) * 0x1p-53;
@@ -51,7 +51,7 @@ class SignSource final : public HermiteSource {
     });
   }
 
-  [[nodiscard]] bool exactNormals() const override { return mExactNormals; }
+  [[nodiscard]] SourceKnowledge knowledge() const override { return {.exactNormals = mExactNormals}; }
   /// Makes vertices count as being on creases where their random planes happen to meet.
   void claimExactNormals() { mExactNormals = true; }
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }

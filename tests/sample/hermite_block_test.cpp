@@ -47,7 +47,7 @@ TEST(EdgeIndex, NumbersAllEdgesThatChangeSignInOrder) {
       std::vector<Edge> visited;
       edges.forEach([&](int number, int axis, int x, int y, int z) {
         ASSERT_EQ(number, static_cast<int>(visited.size()));
-        ASSERT_EQ(edges(axis, x, y, z), number);
+        ASSERT_EQ(edges(kAxes[axis], x, y, z), number);
         ASSERT_GE(number, edges.begin(axis));
         ASSERT_LT(number, edges.begin(axis + 1));
         visited.push_back({axis, x, y, z});

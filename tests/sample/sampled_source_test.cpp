@@ -23,8 +23,8 @@ TEST(SampledSource, GivesWhatTheSourceGivesWithoutAskingIt) {
   for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
     ASSERT_EQ(kept.signs[i].row, blocks.signs[i].row);
     const EdgeIndex edges(blocks.signs[i]);
-    source.fillHermite(blocks.coords[i], blocks.signs[i], edges, *expected);
-    sampled.fillHermite(blocks.coords[i], blocks.signs[i], edges, *found);
+    source.fillHermite({blocks.coords[i], blocks.signs[i], edges}, *expected);
+    sampled.fillHermite({blocks.coords[i], blocks.signs[i], edges}, *found);
     for (int e = 0; e < edges.size(); ++e) {
       ASSERT_EQ(found->t[e], expected->t[e]);
       ASSERT_EQ((Vec3f{found->nx[e], found->ny[e], found->nz[e]}),

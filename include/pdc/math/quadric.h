@@ -102,6 +102,14 @@ constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& 
   return {outer(n).plusDiagonal(sn), n * d + q * sn, d * d + sn * dot(q, q) + sq * (dot(n, n) + 3 * sn)};
 }
 
+/// Σ wᵢ (x − pᵢ)ᵀΣn(x − pᵢ): what noise of the normals, with one covariance Sigma_n for all, adds to a sum of planes
+/// through pᵢ with weights wᵢ. Σ wᵢ planeQuadric(pᵢ, nᵢ) and this are Σ wᵢ probabilisticPlaneQuadric(pᵢ, nᵢ, Sigma_n).
+/// \param weight Σ wᵢ. \param points Σ wᵢ pᵢ. \param squares Σ wᵢ pᵢᵀΣn pᵢ.
+template <typename T>
+constexpr Quadric<T> normalNoiseQuadric(const SymMat3<T>& Sigma_n, T weight, const Vec3<T>& points, T squares) {
+  return {Sigma_n * weight, Sigma_n * points, squares};
+}
+
 /// Σn = σ²(I − nnᵀ): a unit normal that is uncertain in its direction only, not in its length. Singular, and so a plane
 /// quadric with it still lacks nothing: nnᵀ + Σn is positive definite for sigmaNormal > 0.
 template <typename T>

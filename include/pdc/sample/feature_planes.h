@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "pdc/math/vec3.h"
+#include "pdc/sample/lattice.h"
 
 namespace pdc {
 
 /// A piece of surface in one cell of a block, whose vertex is to be placed.
 struct SurfacePatch {
-  std::uint16_t cell;   ///< 64x + 8y + z.
-  std::uint16_t edges;  ///< The sign-changing edges around it; the edge along axis a from (u, v) on the next two axes
-                        ///< is bit 4a + u + 2v.
+  BlockCell cell;
+  /// The sign-changing edges around it: the edge along axis a from (u, v) on the next two axes is bit 4a + u + 2v.
+  std::uint16_t edges;
 };
 
 /// What a source knows of some patches of a block beyond their crossings: planes that take the place of the crossings'

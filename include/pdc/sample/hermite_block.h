@@ -6,17 +6,11 @@
 #include <cstdint>
 
 #include "pdc/math/vec3.h"
+#include "pdc/sample/lattice.h"
 
-/// The seam between inputs and extraction. Space is a lattice of integer points; a *cell* is named by its lowest
-/// corner; a *block* is 8×8×8 cells and is named by its block coordinate, the first cell's coordinate divided by 8.
-/// Whoever can fill BlockSigns and HermiteBlock (an OpenVDB leaf, an implicit function) gets the whole extractor.
+/// The seam between inputs and extraction: whoever can fill BlockSigns and HermiteBlock (an OpenVDB leaf, an implicit
+/// function) gets the whole extractor.
 namespace pdc {
-
-inline constexpr int kBlockSize = 8;                 ///< Cells per block and axis.
-inline constexpr int kBlockPoints = kBlockSize + 1;  ///< Lattice points per block and axis.
-
-/// A lattice point, a cell, or a block coordinate.
-using Coord = std::array<std::int32_t, 3>;
 
 namespace detail {
 /// Number of set bits, without the instruction that plain x86-64 lacks.
@@ -86,17 +80,17 @@ class EdgeIndex {
   /// Lower end points of all edges, as 256x + 16y + z.
   [[nodiscard]] const std::uint16_t* points() const { return mPoint.data(); }
   /// Number of the edge along `axis` from (x, y, z); meaningful only if it changes sign.
-  [[nodiscard]] int operator()(int axis, int x, int y, int z) const { return mNumber[slot(axis, x, y, z)]; }
+  [[nodiscard]] int operator()(Axis axis, int x, int y, int z) const { return mNumber[slot(axis, x, y, z)]; }
   /// Calls visit(number, axis, x, y, z) for each sign-changing edge in order.
   template <typename Visit>
   void forEach(Visit&& visit) const {
-    for (int axis = 0; axis < 3; ++axis)
+    for (const Axis axis : kAxes)
       for (int i = mStart[axis]; i < mStart[axis + 1]; ++i)
         visit(i, axis, mPoint[i] >> 8, mPoint[i] >> 4 & 15, mPoint[i] & 15);
   }
 
   /// Where numbers() holds the number of an edge.
-  [[nodiscard]] static constexpr int slot(int axis, int x, int y, int z) {
+  [[nodiscard]] static constexpr int slot(Axis axis, int x, int y, int z) {
     return ((axis * kBlockPoints + x) * kBlockPoints + y) * kBlockPoints + z;
   }
   /// By slot; meaningful only for edges that change sign.

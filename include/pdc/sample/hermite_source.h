@@ -1,8 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "pdc/mesh/mesh.h"
+#include "pdc/mesh/buffer.h"
 #include "pdc/monitor.h"
 #include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
@@ -18,7 +19,29 @@ struct SurfaceBlocks {
   bool open = false;  ///< True if some cells may not take part; false promises that all do.
 };
 
-/// An input that can be contoured. Immutable; its functions may be called from many threads at once.
+/// One block that holds surface. `edges` was made from `signs`.
+struct SurfaceBlock {
+  const Coord& coord;
+  const BlockSigns& signs;
+  const EdgeIndex& edges;
+};
+
+/// What a source tells beside where the surface crosses lattice edges and with which normals.
+struct SourceKnowledge {
+  enum class Noise {
+    kNone,     ///< fillNoise() is not to be called.
+    kWeights,  ///< fillNoise() tells how much each crossing counts; normals have no noise of their own.
+    kSigma,    ///< fillNoise() tells the noise of each normal too.
+  };
+
+  /// Normals are the surface's own at each crossing, not means over the cells about it: where the planes of a cell's
+  /// crossings meet, there is a crease or a corner.
+  bool exactNormals = false;
+  Noise noise = Noise::kNone;
+};
+
+/// An input that can be contoured. Immutable; its functions may be called from many threads at once. They may run
+/// parallel loops of their own: callers isolate them, so that a thread that waits in one does not begin another block.
 class HermiteSource {
  public:
   virtual ~HermiteSource() = default;
@@ -29,33 +52,26 @@ class HermiteSource {
   /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
 
-  /// Fills crossings and normals of one block for the edges of `edges`, which was made from `signs`. Does not allocate.
-  virtual void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                           HermiteBlock& hermite) const = 0;
-
-  /// True if normals are the surface's own at each crossing, not means over the cells about it: where the planes of a
-  /// cell's crossings meet, there is a crease or a corner.
-  [[nodiscard]] virtual bool exactNormals() const { return false; }
-
-  /// A hint that fillHermite() will soon be called for `block`, so that its data may be fetched meanwhile.
-  virtual void prefetch(const Coord& block) const { static_cast<void>(block); }
-  /// Fills what the source knows of a block's patches beyond `hermite`, which it has filled before. Sources that know
-  /// nothing more leave `planes`, which comes empty, as it is. Allocates only while `planes` has not grown to its size.
-  virtual void fillFeaturePlanes(const Coord& /*block*/, const BlockSigns& /*signs*/, const EdgeIndex& /*edges*/,
-                                 const HermiteBlock& /*hermite*/, std::span<const SurfacePatch> /*patches*/,
-                                 FeaturePlanes& /*planes*/) const {}
-
-  /// True if fillNoise() has something to say, about all blocks.
-  [[nodiscard]] virtual bool knowsNoise() const { return false; }
-  /// True if that says more of the normals than that they have no noise of their own.
-  [[nodiscard]] virtual bool knowsSigma() const { return false; }
-  /// Fills what is known of the noise of each crossing in `hermite`, which was filled before. Does not allocate. Called
-  /// only if knowsNoise().
-  virtual void fillNoise(const Coord& /*block*/, const EdgeIndex& /*edges*/, const HermiteBlock& /*hermite*/,
-                         PlaneNoise& /*noise*/) const {}
-
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;
+
+  [[nodiscard]] virtual SourceKnowledge knowledge() const { return {}; }
+
+  /// Fills crossings and normals of one block. Does not allocate.
+  virtual void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const = 0;
+
+  /// Fills what is known of the noise of each crossing in `hermite`, which was filled before. Does not allocate. Called
+  /// only if knowledge() says so.
+  virtual void fillNoise(const SurfaceBlock& /*block*/, const HermiteBlock& /*hermite*/, PlaneNoise& /*noise*/) const {}
+
+  /// Fills planes that the source knows of some of a block's patches beyond `hermite`, which was filled before. Sources
+  /// that know none leave `planes`, which comes empty, as it is. Allocates only while `planes` has not grown to its
+  /// size.
+  virtual void fillFeaturePlanes(const SurfaceBlock& /*block*/, const HermiteBlock& /*hermite*/,
+                                 std::span<const SurfacePatch> /*patches*/, FeaturePlanes& /*planes*/) const {}
+
+  /// A hint that a block will soon be filled, so that its data may be fetched meanwhile.
+  virtual void prefetch(const Coord& block) const { static_cast<void>(block); }
 };
 
 }  // namespace pdc

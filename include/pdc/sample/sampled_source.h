@@ -18,19 +18,16 @@ class SampledSource final : public HermiteSource {
   ~SampledSource() override;
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
-  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                   HermiteBlock& hermite) const override;
-  void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                         const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
-                         FeaturePlanes& planes) const override;
-  [[nodiscard]] bool exactNormals() const override { return mSource.exactNormals(); }
-  [[nodiscard]] bool knowsNoise() const override { return mSource.knowsNoise(); }
-  [[nodiscard]] bool knowsSigma() const override { return mSource.knowsSigma(); }
-  void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
-                 PlaneNoise& noise) const override {
-    mSource.fillNoise(block, edges, hermite, noise);
-  }
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
+  [[nodiscard]] SourceKnowledge knowledge() const override { return mSource.knowledge(); }
+  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override;
+  void fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const override {
+    mSource.fillNoise(block, hermite, noise);
+  }
+  void fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
+                         FeaturePlanes& planes) const override {
+    mSource.fillFeaturePlanes(block, hermite, patches, planes);
+  }
 
   /// Crossings kept, those that several blocks see counted for each.
   [[nodiscard]] std::size_t crossings() const { return mCrossings.size(); }

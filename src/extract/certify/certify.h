@@ -2,6 +2,7 @@
 
 #include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
+#include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
 

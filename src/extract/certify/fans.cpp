@@ -14,7 +14,7 @@ constexpr double kInner = 0.01;
 struct Fans::Crossings {
   Crossings(const HermiteSource& source, const Coord& coord, const BlockSigns& signs, std::int32_t index)
       : block(index), edges(signs) {
-    source.fillHermite(coord, signs, edges, hermite);
+    source.fillHermite({coord, signs, edges}, hermite);
   }
   std::int32_t block;
   EdgeIndex edges;
@@ -29,7 +29,8 @@ Fans::~Fans() = default;
 Vec3d Fans::crossing(const CellRef& c, int edge) {
   if (mCrossings == nullptr || mCrossings->block != c.block)
     mCrossings = std::make_unique<Crossings>(mSource, mBlocks.coords[c.block], mBlocks.signs[c.block], c.block);
-  const int axis = edgeAxis(edge), corner = edgeLowCorner(edge);
+  const Axis axis = kCellEdge[edge].axis;
+  const int corner = kCellEdge[edge].low;
   const int x = c.x + (corner & 1), y = c.y + (corner >> 1 & 1), z = c.z + (corner >> 2);
   const double t = mCrossings->hermite.t[mCrossings->edges(axis, x, y, z)];
   const Coord& b = mBlocks.coords[c.block];
@@ -80,7 +81,7 @@ Fans::CellSegment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const
   const std::array<int, 4> faceOf{2 * u, 2 * v, 2 * u + 1, 2 * v + 1};
   const int own = edgeInCell(e.axis(), k), code = mEdgeCells.code(c);
   const CellEntry& entry = kCellTable[code];
-  const MultiVertexCell* multiVertex = mEdgeCells.block(c.block).findMultiVertex(key(c).second);
+  const MultiVertexCell* multiVertex = mEdgeCells.block(c.block).findMultiVertex(c.cell());
   const bool flipped = multiVertex != nullptr && entry.flipFace != kNone && multiVertex->patch == entry.flipped.vertex;
   const Segments all = segments(code, flipped);
   for (int i = 0; i < all.size; ++i) {
@@ -93,10 +94,10 @@ Fans::CellSegment Fans::segment(const EdgeRef& e, const CellRef& c, int k) const
 Fans::Segment Fans::segmentKey(const CellRef& c, const CellSegment& s) const {
   const Coord& b = mBlocks.coords[c.block];
   const auto lattice = [&](int edge) {
-    const int corner = edgeLowCorner(edge);
+    const int corner = kCellEdge[edge].low;
     return LatticeEdge({kBlockSize * b[0] + c.x + (corner & 1), kBlockSize * b[1] + c.y + (corner >> 1 & 1),
                         kBlockSize * b[2] + c.z + (corner >> 2)},
-                       edgeAxis(edge));
+                       kCellEdge[edge].axis);
   };
   return std::minmax({lattice(s.edge0), lattice(s.edge1)});
 }

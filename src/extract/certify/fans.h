@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "extract/topology/edge_cells.h"
+#include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
 

@@ -122,7 +122,8 @@ inline void NearFaces::addFacesOf(std::int32_t block, const LatticeBox& box, std
   const PointMask far(box.low, box.high, mReach[farPlace], coord);
   for (int axis = 0; axis < 3; ++axis)
     for (int x = far.beginX(); x < far.endX(); ++x)
-      add(axis, x, (topology.edges[axis].word[x] & near.word(x)) | (mFar.edges(farPlace, axis).word[x] & far.word(x)));
+      add(axis, x,
+          (topology.edges[axis].word[x] & near.word(x)) | (mFar.edges(farPlace, kAxes[axis]).word[x] & far.word(x)));
 }
 
 void NearFaces::facesAbout(const Box& box, std::vector<EdgeRef>& out) const { facesAbout(latticeBox(box), out); }

@@ -39,9 +39,9 @@ class BlockFaceWriter::Block {
   void run() {
     listEdges();
     if (mVertices.allSimple()) {
-      findVertices<0>();
-      findVertices<1>();
-      findVertices<2>();
+      findVertices<kAxisX>();
+      findVertices<kAxisY>();
+      findVertices<kAxisZ>();
     } else {
       const EdgeCells edgeCells(mWriter.mBlocks, mWriter.mTopology);
       for (int i = 0; i < mBegin[3]; ++i) {
@@ -53,25 +53,25 @@ class BlockFaceWriter::Block {
   }
 
  private:
-  static constexpr int kMostQuads = 3 * kBlockSize * kBlockSize * kBlockSize;
+  static constexpr int kMostQuads = 3 * kBlockCells;
 
   void listEdges() {
     int n = 0;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (const Axis axis : kAxes) {
       mBegin[axis] = n;
       for (int x = 0; x < kBlockSize; ++x)
         n += writeBits<4>(mOwn.edges[axis].word[x], [&](int i, int bit) {
-          mEdge[n + i] = static_cast<std::uint16_t>(512 * axis + 64 * x + bit);
+          mEdge[n + i] = static_cast<std::uint16_t>(kBlockCells * axis + 64 * x + bit);
         });
     }
     mBegin[3] = n;
   }
 
-  template <int axis>
+  template <Axis axis>
   void findVertices() {
-    constexpr int kStepU = CellVertices::kStep[(axis + 1) % 3], kStepV = CellVertices::kStep[(axis + 2) % 3];
+    constexpr int kStepU = CellVertices::kStep[nextAxis(axis)], kStepV = CellVertices::kStep[lastAxis(axis)];
     for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
-      const std::uint32_t* at = mVertices.at(mEdge[i] & 511);
+      const std::uint32_t* at = mVertices.at(mEdge[i] % kBlockCells);
       for (int k = 0; k < 4; ++k)
         mVertex[k][i] = at[-(kCellsAboutEdge[k][0] * kStepU + kCellsAboutEdge[k][1] * kStepV)];
     }
@@ -90,7 +90,7 @@ class BlockFaceWriter::Block {
       for (int i = 0; i < kLanes; i += 4)
         mLanes.set(k, i, {errors + place[i], errors + place[i + 1], errors + place[i + 2], errors + place[i + 3]});
     }
-    for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] >> 9;
+    for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] / kBlockCells;
     chooseDiagonals(mLanes);
     if (mSuspects != nullptr) {
       findPassing(mLanes, mErrorBound);

@@ -6,6 +6,7 @@
 #include "extract/topology/suspect_vertex.h"
 #include "extract/vertices/vertex_errors.h"
 #include "pdc/math/simd_level.h"
+#include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
 

@@ -146,8 +146,8 @@ class BlockCounter {
   }
 
   /// True if all four cells about the edge from lattice point p take part.
-  bool hasQuad(int axis, const Coord& p) const {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  bool hasQuad(Axis axis, const Coord& p) const {
+    const Axis u = nextAxis(axis), v = lastAxis(axis);
     for (int k = 0; k < 4; ++k) {
       Coord c = p;
       c[u] -= k & 1;
@@ -158,7 +158,7 @@ class BlockCounter {
   }
 
   void dropIncompleteEdges() {
-    for (int a = 0; a < 3; ++a)
+    for (const Axis a : kAxes)
       for (int x = 0; x < kBlockSize; ++x)
         for (std::uint64_t w = mOut.edges[a].word[x]; w != 0; w &= w - 1) {
           const int bit = std::countr_zero(w), y = bit >> 3, z = bit & 7;
@@ -170,8 +170,9 @@ class BlockCounter {
   unsigned presentEdges(int x, int y, int z, unsigned edges) const {
     unsigned present = 0;
     for (unsigned e = edges; e != 0; e &= e - 1) {
-      const int edge = std::countr_zero(e), low = edgeLowCorner(edge);
-      if (hasQuad(edgeAxis(edge), {x + (low & 1), y + (low >> 1 & 1), z + (low >> 2)})) present |= 1u << edge;
+      const int edge = std::countr_zero(e);
+      const Coord step = cornerStep(kCellEdge[edge].low);
+      if (hasQuad(kCellEdge[edge].axis, {x + step[0], y + step[1], z + step[2]})) present |= 1u << edge;
     }
     return present;
   }
@@ -197,7 +198,7 @@ class BlockCounter {
         if (mBlocks.open) {
           addOpenCell(x, y, z, code, flip, patches);
         } else if (patches.count > 1) {
-          addMultiVertex(64 * x + bit, patches, patches);
+          addMultiVertex(BlockCell::at(x, y, z), patches, patches);
         }
       }
   }
@@ -206,7 +207,7 @@ class BlockCounter {
     const unsigned edges = kCellTable[code].edges;
     const unsigned present = presentEdges(x, y, z, edges);
     if (present == edges) {
-      if (patches.count > 1) addMultiVertex(64 * x + 8 * y + z, patches, patches);
+      if (patches.count > 1) addMultiVertex(BlockCell::at(x, y, z), patches, patches);
       return;
     }
     if (present == 0) return mOut.cells.reset(x, y, z);
@@ -221,12 +222,12 @@ class BlockCounter {
           open |= 1u << arcs.vertex[other];
     }
     mOut.openArcs += static_cast<std::uint32_t>(std::popcount(open));
-    addMultiVertex(64 * x + 8 * y + z, arcs, patches);
+    addMultiVertex(BlockCell::at(x, y, z), arcs, patches);
   }
 
-  void addMultiVertex(int cell, const Patches& vertices, const Patches& patches) {
-    mMultiVertex.push_back({static_cast<std::uint16_t>(cell), vertices.count,
-                            static_cast<std::uint16_t>(extraVertices()), vertices.vertex, patches.vertex});
+  void addMultiVertex(BlockCell cell, const Patches& vertices, const Patches& patches) {
+    mMultiVertex.push_back(
+        {cell, vertices.count, static_cast<std::uint16_t>(extraVertices()), vertices.vertex, patches.vertex});
   }
 
   /// Vertices beyond one per cell in the block's multi-vertex cells so far.
@@ -248,19 +249,19 @@ class BlockCounter {
 
 /// The first multi-vertex cell that is not before `cell`.
 std::span<const MultiVertexCell>::iterator firstMultiVertexFrom(std::span<const MultiVertexCell> multiVertex,
-                                                                int cell) {
+                                                                BlockCell cell) {
   return std::lower_bound(multiVertex.begin(), multiVertex.end(), cell,
-                          [](const MultiVertexCell& s, int c) { return int{s.cell} < c; });
+                          [](const MultiVertexCell& s, BlockCell c) { return s.cell < c; });
 }
 
 }  // namespace
 
-const MultiVertexCell* BlockTopology::findMultiVertex(int cell) const {
+const MultiVertexCell* BlockTopology::findMultiVertex(BlockCell cell) const {
   const auto it = firstMultiVertexFrom(multiVertex, cell);
   return it != multiVertex.end() && it->cell == cell ? &*it : nullptr;
 }
 
-std::uint64_t BlockTopology::multiVertexOffset(int cell, int edge) const {
+std::uint64_t BlockTopology::multiVertexOffset(BlockCell cell, int edge) const {
   const auto it = firstMultiVertexFrom(multiVertex, cell);
   std::uint64_t n = 0;
   if (it != multiVertex.begin()) n = std::prev(it)->extraBefore + std::prev(it)->vertexCount - 1u;

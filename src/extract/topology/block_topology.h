@@ -9,13 +9,13 @@
 #include "pdc/monitor.h"
 #include "pdc/sample/hermite_source.h"
 #include "sample/block_index.h"
-#include "sample/patch_edges.h"
+#include "sample/cell_edges.h"
 
 namespace pdc::detail {
 
 /// A cell that does not simply have one vertex for all its sign-changing edges.
 struct MultiVertexCell {
-  std::uint16_t cell;         ///< 64x + 8y + z in its block.
+  BlockCell cell;
   std::uint8_t vertexCount;   ///< At least 1.
   std::uint16_t extraBefore;  ///< Vertices beyond one per cell in the block's multi-vertex cells before this one.
   EdgeVertices vertex;        ///< Which of the vertices each edge with a quad belongs to.
@@ -36,18 +36,18 @@ struct BlockTopology {
   std::uint64_t firstVertex, firstQuad;
 
   /// The multi-vertex cell entry of a cell, or null.
-  [[nodiscard]] const MultiVertexCell* findMultiVertex(int cell) const;
+  [[nodiscard]] const MultiVertexCell* findMultiVertex(BlockCell cell) const;
   /// Number in the mesh of the vertex that an edge's quad uses in a cell of this block.
   [[nodiscard]] std::uint64_t vertexAt(int x, int y, int z, int edge) const {
     const std::uint64_t below = (std::uint64_t{1} << (8 * y + z)) - 1;
     const std::uint64_t n = firstVertex + cellsBefore[x] + bitCount(cells.word[x] & below);
-    return multiVertex.empty() ? n : n + multiVertexOffset(64 * x + 8 * y + z, edge);
+    return multiVertex.empty() ? n : n + multiVertexOffset(BlockCell::at(x, y, z), edge);
   }
 
  private:
   /// What multi-vertex cells add to the number of cells before: vertices beyond the first of earlier ones, and of this
   /// one.
-  [[nodiscard]] std::uint64_t multiVertexOffset(int cell, int edge) const;
+  [[nodiscard]] std::uint64_t multiVertexOffset(BlockCell cell, int edge) const;
 };
 
 /// The topology of all blocks, with vertices and quads numbered through in block order.

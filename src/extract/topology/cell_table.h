@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 
-/// Everything the topology of dual contouring needs to know of one cell, derived at compile time from one picture:
-/// corner c = x + 2y + 4z; edge e = 4·axis + k, whose lower corner lies at bit 0 of k along the next axis and bit 1 of
-/// k along the one after; face f = 2·axis + side. A *code* has bit c set if corner c is inside.
+#include "sample/cell_edges.h"
+
+/// Everything the topology of dual contouring needs to know of one cell, derived at compile time from how
+/// its corners and edges are numbered (see cell_edges.h); face f = 2·axis + side. A *code* has bit c set if corner c is
+/// inside.
 ///
 /// A cell's surface meets its faces in *segments*, each joining two sign-changing edges of a face. Every such edge lies
 /// in two faces, so segments close into cycles: the cell's *patches*, each of which gets one vertex. (Nielson 2004;
@@ -13,20 +15,13 @@
 /// is cut off by itself; in a *flipped* cell each outside corner is.
 namespace pdc::detail {
 
-inline constexpr int kCorners = 8, kEdges = 12, kFaces = 6;
+inline constexpr int kFaces = 6;
 inline constexpr int kNone = 0xF;
-
-constexpr int edgeAxis(int e) { return e / 4; }
-constexpr int edgeLowCorner(int e) {
-  const int a = e / 4, u = (a + 1) % 3, v = (a + 2) % 3;
-  return (e & 1) << u | (e >> 1 & 1) << v;
-}
-constexpr int edgeHighCorner(int e) { return edgeLowCorner(e) | 1 << edgeAxis(e); }
 
 /// The edge between two corners that differ in one bit.
 constexpr int edgeBetween(int c0, int c1) {
   for (int e = 0; e < kEdges; ++e)
-    if ((edgeLowCorner(e) == c0 && edgeHighCorner(e) == c1) || (edgeLowCorner(e) == c1 && edgeHighCorner(e) == c0))
+    if ((kCellEdge[e].low == c0 && kCellEdge[e].high == c1) || (kCellEdge[e].low == c1 && kCellEdge[e].high == c0))
       return e;
   return kNone;
 }
@@ -49,7 +44,7 @@ inline constexpr auto kFaceEdge = [] {
 
 constexpr bool isInside(int code, int corner) { return (code >> corner & 1) != 0; }
 constexpr bool changesSign(int code, int e) {
-  return isInside(code, edgeLowCorner(e)) != isInside(code, edgeHighCorner(e));
+  return isInside(code, kCellEdge[e].low) != isInside(code, kCellEdge[e].high);
 }
 /// True if the face has two inside corners that face each other.
 constexpr bool isAmbiguous(int code, int f) {

@@ -4,6 +4,7 @@
 
 #include "extract/topology/block_topology.h"
 #include "extract/topology/suspect_vertex.h"
+#include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
 
@@ -12,17 +13,11 @@ namespace pdc::detail {
 inline constexpr int kCellsAboutEdge[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 /// The number, within a cell, of the lattice edge whose k-th ring cell it is.
-constexpr int edgeInCell(int axis, int k) { return 4 * axis + kCellsAboutEdge[k][0] + 2 * kCellsAboutEdge[k][1]; }
+constexpr int edgeInCell(Axis axis, int k) { return 4 * axis + kCellsAboutEdge[k][0] + 2 * kCellsAboutEdge[k][1]; }
 
-/// A cell of a block.
-struct CellRef {
-  std::int32_t block;
-  int x, y, z;
-};
+constexpr CellRef cellOf(const SuspectVertex& v) { return {v.block, v.cell.x(), v.cell.y(), v.cell.z()}; }
 
-constexpr CellRef cellOf(const SuspectVertex& v) { return {v.block, v.cell >> 6, v.cell >> 3 & 7, v.cell & 7}; }
-
-/// Finds one's way between cells, lattice edges and their quads in a finished topology.
+/// Cells, lattice edges and their quads, each found from the others, in a finished topology.
 class EdgeCells {
  public:
   EdgeCells(const SurfaceBlocks& blocks, const Topology& topology) : mBlocks(blocks), mTopology(topology) {}
@@ -70,16 +65,18 @@ class EdgeCells {
 template <typename Visit>
 void EdgeCells::forEachEdge(const CellRef& c, Visit&& visit) const {
   for (unsigned bits = kCellTable[code(c)].edges; bits != 0; bits &= bits - 1) {
-    const int e = std::countr_zero(bits), corner = edgeLowCorner(e), axis = edgeAxis(e);
-    const int x = c.x + (corner & 1), y = c.y + (corner >> 1 & 1), z = c.z + (corner >> 2);
+    const int e = std::countr_zero(bits);
+    const Axis axis = kCellEdge[e].axis;
+    const Coord step = cornerStep(kCellEdge[e].low);
+    const int x = c.x + step[0], y = c.y + step[1], z = c.z + step[2];
     std::int32_t owner = c.block;
     if (((x | y | z) & 8) != 0) {
       const Coord& b = mBlocks.coords[c.block];
       owner = mTopology.index.find({b[0] + (x >> 3), b[1] + (y >> 3), b[2] + (z >> 3)});
       if (owner == BlockIndex::kMissing) continue;
     }
-    if (!mTopology.blocks[owner].edges[axis].test(x & 7, y & 7, z & 7)) continue;
-    visit(EdgeRef{owner, static_cast<std::uint16_t>(512 * axis + 64 * (x & 7) + 8 * (y & 7) + (z & 7))}, e);
+    const BlockCell low = BlockCell::at(x & 7, y & 7, z & 7);
+    if (mTopology.blocks[owner].edges[axis].test(low.x(), low.y(), low.z())) visit(EdgeRef::at(owner, axis, low), e);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "extract/topology/suspect_vertex.h"
+#include "extract/topology/block_refs.h"
 #include "pdc/sample/hermite_block.h"
 
 namespace pdc::detail {
@@ -33,7 +33,7 @@ class EdgeSet {
   /// The block's number among those, or -1.
   [[nodiscard]] std::int32_t place(std::int32_t block) const { return mPlace[block]; }
   /// The edges of the block with that number, along one axis.
-  [[nodiscard]] const CellMask& edges(std::int32_t place, int axis) const { return mBlocks[place].edges[axis]; }
+  [[nodiscard]] const CellMask& edges(std::int32_t place, Axis axis) const { return mBlocks[place].edges[axis]; }
   [[nodiscard]] bool has(const EdgeRef& e) const {
     const std::int32_t place = mPlace[e.block];
     return place >= 0 && mBlocks[place].edges[e.axis()].test(e.x(), e.y(), e.z());

@@ -49,9 +49,9 @@ void PatchList::fill(const BlockTopology& topology, const BlockSigns& signs) {
   mMultiVertex.clear();
   std::size_t next = 0;
   unsigned any = 0;
-  const auto add = [&, patches = mPatches.data(), ambiguous = mAmbiguous.data()](int cell, unsigned edges) {
+  const auto add = [&, patches = mPatches.data(), ambiguous = mAmbiguous.data()](BlockCell cell, unsigned edges) {
     any |= edges;
-    patches[next] = {static_cast<std::uint16_t>(cell), static_cast<std::uint16_t>(edges & kEdgeBits)};
+    patches[next] = {cell, static_cast<std::uint16_t>(edges & kEdgeBits)};
     ambiguous[next++] = static_cast<std::uint8_t>(edges >> kEdges);
   };
   // The pairs of corners at (y, z) and (y + 1, z) of a layer.
@@ -64,7 +64,8 @@ void PatchList::fill(const BlockTopology& topology, const BlockSigns& signs) {
   auto multiVertex = topology.multiVertex.begin();
   for (int x = 0; x < kBlockSize; ++x)
     for (std::uint64_t w = topology.cells.word[x]; w != 0; w &= w - 1) {
-      const int bit = std::countr_zero(w), cell = 64 * x + bit, z = bit & 7;
+      const int bit = std::countr_zero(w), z = bit & 7;
+      const BlockCell cell{static_cast<std::uint16_t>(64 * x + bit)};
       const std::uint16_t* row = &signs.row[static_cast<std::size_t>(kBlockPoints * x + (bit >> 3))];
       const std::uint32_t pairs = twoPairs(row, z) | twoPairs(row + kBlockPoints, z) << 4;
       const unsigned edges = kPairEdges[(pairs | pairs >> 14) & 0xFF];

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "extract/topology/block_refs.h"
 #include "pdc/math/vec3.h"
 
 namespace pdc::detail {
@@ -15,8 +16,8 @@ namespace pdc::detail {
 struct SuspectVertex {
   std::uint64_t vertex;
   std::int32_t block;
-  std::uint16_t cell;  ///< 64x + 8y + z.
-  Vec3f place;         ///< In lattice units from the centre of the cell; at first where its quadric wants it.
+  BlockCell cell;
+  Vec3f place;  ///< In lattice units from the centre of the cell; at first where its quadric wants it.
   /// Where it is safe: in its cell, and in an ambiguous cell among its own patch's crossings.
   Vec3f safe;
   /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where there
@@ -24,7 +25,7 @@ struct SuspectVertex {
   std::array<Vec3f, 4> creaseNormals{};
 };
 
-/// Finds suspect vertices by their numbers.
+/// Finds suspect vertices by their numbers in the mesh.
 class SuspectIndex {
  public:
   /// \param suspect sorted by vertex.
@@ -49,28 +50,16 @@ class SuspectIndex {
 
  private:
   struct Word {
-    std::uint64_t bits = 0;  ///< Of 64 vertices.
+    std::uint64_t bits = 0;  ///< One for each of 64 vertices.
     std::size_t before = 0;  ///< Suspect ones in earlier words.
   };
   std::vector<Word> mWords;
 };
 
-/// A sign-changing lattice edge of a block, whose quad it stands for.
-struct EdgeRef {
-  std::int32_t block;
-  std::uint16_t edge;  ///< 512 axis + 64x + 8y + z.
-
-  [[nodiscard]] int axis() const { return edge >> 9; }
-  [[nodiscard]] int x() const { return edge >> 6 & 7; }
-  [[nodiscard]] int y() const { return edge >> 3 & 7; }
-  [[nodiscard]] int z() const { return edge & 7; }
-  friend auto operator<=>(const EdgeRef&, const EdgeRef&) = default;
-};
-
-/// What one thread found that needs a closer look.
+/// What may intersect other faces, as one thread found it.
 struct Suspects {
   std::vector<SuspectVertex> vertices;
-  std::vector<EdgeRef> quads;  ///< None of whose diagonals passes the quick test.
+  std::vector<EdgeRef> quads;  ///< Neither diagonal passes the quick test.
   std::uint64_t forcedDiagonals = 0;
 
   void append(const Suspects& d) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/vertices/vertex_solver.h"
+
 namespace pdc::detail {
 
 double cellRounding(const LatticeMap& map, const Coord& block) {
@@ -15,6 +17,10 @@ double cellRounding(const LatticeMap& map, const Coord& block) {
   for (const Vec3d& row : K.row)
     rounding = std::max(rounding, (std::abs(row.x) + std::abs(row.y) + std::abs(row.z)) * largest * 0x1p-24);
   return rounding;
+}
+
+double roundedCellHalfSize(const LatticeMap& map, const Coord& block) {
+  return 0.5 - std::clamp(4 * cellRounding(map, block), kCellMargin, 0.25);
 }
 
 }  // namespace pdc::detail

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "extract/vertices/vertex_solver.h"
+#include "extract/vertices/cell_metric.h"
 #include "math/float_lanes.h"
 #include "pdc/math/simd_level.h"
 #include "pdc/sample/hermite_source.h"

@@ -10,7 +10,7 @@
 #include "extract/topology/patch_list.h"
 #include "extract/vertices/crossing_planes.h"
 #include "math/float_lanes.h"
-#include "sample/patch_edges.h"
+#include "sample/cell_edges.h"
 
 namespace pdc::detail {
 
@@ -41,9 +41,9 @@ class PatchSums {
     for (std::size_t i = 0; i < patches.size(); ++i) mNumber.set(patches[i].cell, static_cast<std::uint16_t>(i + 1));
     for (const std::uint32_t i : patches.multiVertex()) mNumber.set(patches[i].cell, 0);
     const Terms<kNoisy> terms(crossings, G);
-    addAxis<0>(terms, edges);
-    addAxis<1>(terms, edges);
-    addAxis<2>(terms, edges);
+    addAxis<kAxisX>(terms, edges);
+    addAxis<kAxisY>(terms, edges);
+    addAxis<kAxisZ>(terms, edges);
     for (const std::uint32_t i : patches.multiVertex())
       forEachEdge(patches[i], edges, [&](int e, int number) { addTo(mRow[i + 1], terms, e, number); });
     turnIntoLanes(patches.size());
@@ -84,11 +84,11 @@ class PatchSums {
   // Vectors go by reference: how wide ones are passed by value depends on the instruction set.
 
   /// What a step along an axis adds to b and Σwp.
-  template <int axis>
+  template <Axis axis>
   static void getStep(const Float8& A, Float8& step) {
-    if constexpr (axis == 0) step = __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
-    if constexpr (axis == 1) step = __builtin_shufflevector(A, A, 1, 3, 4, 7, 6, 7, 7, 7);
-    if constexpr (axis == 2) step = __builtin_shufflevector(A, A, 2, 4, 5, 7, 7, 6, 7, 7);
+    if constexpr (axis == kAxisX) step = __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
+    if constexpr (axis == kAxisY) step = __builtin_shufflevector(A, A, 1, 3, 4, 7, 6, 7, 7, 7);
+    if constexpr (axis == kAxisZ) step = __builtin_shufflevector(A, A, 2, 4, 5, 7, 7, 6, 7, 7);
   }
 
   static void add(Row& row, const Float8& A, const Float8& b) {
@@ -96,9 +96,9 @@ class PatchSums {
     row.b += b;
   }
 
-  template <int axis, typename T>
+  template <Axis axis, typename T>
   void addAxis(const T& terms, const EdgeIndex& edges) {
-    constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    constexpr Axis u = nextAxis(axis), v = lastAxis(axis);
     for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
       const std::uint16_t* cell = mNumber.at(edges.points()[i]);
       Float8 A, low, alongU, alongV;
@@ -120,13 +120,13 @@ class PatchSums {
   static void addTo(Row& row, const T& terms, int e, int number) {
     Float8 A, along[3];
     terms.getA(number, A);
-    getStep<0>(A, along[0]);
-    getStep<1>(A, along[1]);
-    getStep<2>(A, along[2]);
-    const int axis = kCellEdge[e].axis;
+    getStep<kAxisX>(A, along[kAxisX]);
+    getStep<kAxisY>(A, along[kAxisY]);
+    getStep<kAxisZ>(A, along[kAxisZ]);
+    const Axis axis = kCellEdge[e].axis;
     Float8 b = along[axis] * terms.t(number);
-    if ((e & 1) != 0) b += along[(axis + 1) % 3];
-    if ((e & 2) != 0) b += along[(axis + 2) % 3];
+    if ((e & 1) != 0) b += along[nextAxis(axis)];
+    if ((e & 2) != 0) b += along[lastAxis(axis)];
     add(row, A, b);
   }
 

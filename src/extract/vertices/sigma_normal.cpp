@@ -17,9 +17,8 @@ class SomeBlocks final : public HermiteSource {
   SomeBlocks(const HermiteSource& source, SurfaceBlocks blocks) : mSource(source), mBlocks(std::move(blocks)) {}
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor&) const override { return mBlocks; }
-  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                   HermiteBlock& hermite) const override {
-    mSource.fillHermite(block, signs, edges, hermite);
+  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override {
+    mSource.fillHermite(block, hermite);
   }
   [[nodiscard]] const LatticeMap& map() const override { return mSource.map(); }
 
@@ -44,7 +43,7 @@ SigmaNormal SigmaNormal::ofOwnNoise() {
 }
 
 SigmaNormal SigmaNormal::fromData(const HermiteSource& source, const SurfaceBlocks& blocks, const Monitor& monitor) {
-  if (source.knowsSigma()) return ofOwnNoise();
+  if (source.knowledge().noise == SourceKnowledge::Noise::kSigma) return ofOwnNoise();
   SurfaceBlocks some;
   const std::size_t all = blocks.coords.size(), count = std::min(kBlocks, all);
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,55 +1,11 @@
 #pragma once
 
-#include <array>
-#include <span>
-
+#include "extract/vertices/cell_metric.h"
+#include "extract/vertices/patch_samples.h"
 #include "extract/vertices/sigma_normal.h"
 #include "pdc/math/quadric.h"
-#include "pdc/sample/feature_planes.h"
-#include "pdc/sample/hermite_block.h"
-#include "pdc/sample/lattice_map.h"
 
 namespace pdc::detail {
-
-/// Lengths in world space seen from a cell: for a step d in lattice units, |M d| is its length in voxels.
-struct CellMetric {
-  /// \param jacobian of the lattice map; \param voxelSize the length that counts as one.
-  CellMetric(const Mat3d& jacobian, double voxelSize);
-  [[nodiscard]] SymMat3<double> inverseG() const;
-
-  double voxelSize;
-  Mat3d M;
-  SymMat3<double> G;      ///< MᵀM.
-  bool identity = false;  ///< True for the common case of a uniform, unrotated lattice, where M = G = I.
-};
-
-/// Of a block whose lowest point is `origin`. Only a map that is not affine has a metric that changes from block to
-/// block; within one it is taken as constant.
-[[nodiscard]] CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin);
-
-/// The lowest point of a block.
-[[nodiscard]] inline Vec3d blockOrigin(const Coord& block) {
-  return {double(kBlockSize) * block[0], double(kBlockSize) * block[1], double(kBlockSize) * block[2]};
-}
-
-/// Hermite data of one surface patch in lattice units about the centre of its cell.
-struct PatchSamples {
-  static constexpr int kMax = 12;
-  std::array<Vec3d, kMax> position;
-  /// The row Mᵀn of each plane: |row · (x − position)| is the distance to it in voxels, measured in world space. Zero
-  /// where there is no normal.
-  std::array<Vec3d, kMax> row;
-  int size = 0;
-  /// What is known of each plane, if anything is: σn² besides the solver's, and its weight.
-  bool noisy = false;
-  std::array<double, kMax> variance, weight;
-  /// Planes that take the place of those above, which then say only where the patch is; `point` from the centre too.
-  std::span<const FeaturePlanes::Plane> features{};
-  double featureSigma = 0;  ///< σn of them.
-};
-
-/// Mean squared distance of a place from the planes that place the vertex, in voxels squared.
-[[nodiscard]] double planeError(const PatchSamples& samples, const Vec3d& x);
 
 struct SolvedVertex {
   Vec3d x;                 ///< Lattice units from the centre of the cell.
@@ -57,6 +13,12 @@ struct SolvedVertex {
   Vec3d halfGradient;      ///< Ax − b: zero where the vertex is the free minimiser.
   bool outOfCell = false;  ///< The free minimiser lay outside the cell.
   bool moved = false;      ///< The vertex is not the free minimiser.
+};
+
+/// The quadric of a patch in lattice units from the centre of its cell; its values are voxels squared.
+struct PatchQuadric {
+  Quadric<double> q;
+  Vec3d massPoint;
 };
 
 /// Vertices stay this far inside their cell's walls, in lattice units, so that faces of neighbouring cells cannot touch
@@ -69,14 +31,16 @@ inline constexpr double kCellHalfSize = 0.5 - kCellMargin;
 /// from a feature.
 inline constexpr double kFreeHalfSize = 2.0;
 
-/// Places the vertex of a patch: minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world space,
-/// that is σn² G in lattice units.
+/// Solves the QEF of a patch: the vertex minimises the sum of its probabilistic plane quadrics with Σn = σn² I in world
+/// space, that is σn² G in lattice units (Trettner & Kobbelt 2020, equations 6-8).
 class VertexSolver {
  public:
   /// \param halfSize how far vertices may lie from the centre of their cell along an axis, in lattice units.
   VertexSolver(const SigmaNormal& sigma, double halfSize);
 
   [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
+  /// The quadric that solve() minimises.
+  [[nodiscard]] PatchQuadric quadric(const PatchSamples& samples, const CellMetric& metric) const;
 
   [[nodiscard]] const SigmaNormal& sigma() const { return mSigma; }
   [[nodiscard]] double halfSize() const { return mHalfSize; }
@@ -87,13 +51,12 @@ class VertexSolver {
  private:
   /// σn² of a patch whose planes sum up to A.
   [[nodiscard]] double varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const;
-  [[nodiscard]] SolvedVertex solveNoisy(const PatchSamples& samples, const Vec3d& massPoint,
-                                        const CellMetric& metric) const;
-  [[nodiscard]] SolvedVertex solveFeatures(const PatchSamples& samples, const CellMetric& metric) const;
+  [[nodiscard]] PatchQuadric plainQuadric(const PatchSamples& samples, const CellMetric& metric) const;
+  [[nodiscard]] PatchQuadric noisyQuadric(const PatchSamples& samples, const CellMetric& metric) const;
   /// The minimiser of a regular quadric within the bounds.
-  [[nodiscard]] SolvedVertex minimize(const Quadric<double>& q, const Vec3d& massPoint, const CellMetric& metric) const;
-  [[nodiscard]] SolvedVertex solveClassical(Quadric<double> q, const Vec3d& massPoint, const CellMetric& metric) const;
-  void constrain(SolvedVertex& v, const SymMat3<double>& A, const Vec3d& b) const;
+  [[nodiscard]] SolvedVertex minimize(const PatchQuadric& patch, const CellMetric& metric) const;
+  [[nodiscard]] SolvedVertex solveClassical(const PatchQuadric& patch, const CellMetric& metric) const;
+  void constrain(SolvedVertex& v, const NormalEquations<double>& system) const;
 
   SigmaNormal mSigma;
   double mHalfSize;

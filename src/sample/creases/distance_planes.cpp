@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "math/lane_loops.h"
+#include "sample/cell_edges.h"
 #include "sample/creases/crease_sheets.h"
 #include "sample/creases/gradient_jumps.h"
-#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -69,7 +69,7 @@ bool allEven(const SampledBlock& block) {
 }
 
 bool even(const SampledBlock& block, const SurfacePatch& patch) {
-  const std::uint16_t* number = block.edges.numbers() + slotOf(patch);
+  const std::uint16_t* number = block.edges.numbers() + slotOf(patch.cell);
   const HermiteBlock& h = block.hermite;
   const auto normal = [&](unsigned bits) {
     const int i = number[kCellEdge[std::countr_zero(bits)].slot];
@@ -87,7 +87,6 @@ struct CrossedEdge {
   double t;             ///< Where it crosses zero, from inside.
 };
 
-constexpr int kCorners = 8;
 using AtCorners = std::array<double, kCorners>;
 
 /// The corners of a cell from its centre, in world space, in voxels.
@@ -137,11 +136,11 @@ class PlaneFinder {
   /// Finds the planes of those among some patches at whose cells there are jumps.
   void run(UnevenPatches& patches) {
     mStencil.rows = {};
-    for (const std::uint16_t i : patches.all()) needRowsAbout(cellOf(mBlock.patches[i]), mStencil.rows);
+    for (const std::uint16_t i : patches.all()) needRowsAbout(mBlock.patches[i].cell.low(), mStencil.rows);
     mRead(mStencil);
     int jumping = 0;
     for (const std::uint16_t i : patches.all()) {
-      const Coord cell = cellOf(mBlock.patches[i]);
+      const Coord cell = mBlock.patches[i].cell.low();
       if (mJumps.noneAt(cell)) continue;
       mVoxels.request(cell);
       patches.index[jumping++] = i;
@@ -154,7 +153,7 @@ class PlaneFinder {
   void run(std::uint32_t i) {
     mPatch = i;
     const SurfacePatch& patch = mBlock.patches[i];
-    mCell = cellOf(patch);
+    mCell = patch.cell.low();
     mVoxels.gather(mCell, mSamples);
     CreaseSheets sheets = findSheets(mSamples, normalNoise(mModel.noise));
     if (sheets.count == 0) return;
@@ -164,7 +163,7 @@ class PlaneFinder {
   }
 
   void gatherCrossings(const SurfacePatch& patch) {
-    const std::uint16_t* number = mBlock.edges.numbers() + slotOf(patch);
+    const std::uint16_t* number = mBlock.edges.numbers() + slotOf(patch.cell);
     const auto inside = static_cast<unsigned>(cellCode(mBlock.signs, mCell[0], mCell[1], mCell[2]));
     mCrossingCount = 0;
     mMassPoint = {};

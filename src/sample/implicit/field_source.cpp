@@ -76,8 +76,7 @@ SurfaceBlocks FieldSource::surfaceBlocks(const Monitor& monitor) const {
   return detail::findSurfaceBlocks({*mField, frameOf(mOptions), cellCounts(mOptions), mOptions.open}, monitor);
 }
 
-void FieldSource::fillHermite(const Coord& block, const BlockSigns& /*signs*/, const EdgeIndex& edges,
-                              HermiteBlock& hermite) const {
+void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
   const detail::LatticeFrame frame = frameOf(mOptions);
   detail::EdgeBatch batch;
   std::array<double, detail::EdgeBatch::kCapacity> t;
@@ -89,9 +88,9 @@ void FieldSource::fillHermite(const Coord& block, const BlockSigns& /*signs*/, c
     done += batch.size;
     batch.size = 0;
   };
-  edges.forEach([&](int, int axis, int x, int y, int z) {
+  block.edges.forEach([&](int, int axis, int x, int y, int z) {
     const std::array<int, 3> local{x, y, z};
-    for (int a = 0; a < 3; ++a) batch.low[a][batch.size] = kBlockSize * block[a] + local[a];
+    for (int a = 0; a < 3; ++a) batch.low[a][batch.size] = kBlockSize * block.coord[a] + local[a];
     batch.axis[batch.size] = static_cast<std::uint8_t>(axis);
     if (++batch.size == detail::EdgeBatch::kCapacity) flush();
   });

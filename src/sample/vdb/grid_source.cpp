@@ -124,38 +124,41 @@ GridSource::~GridSource() = default;
 
 SurfaceBlocks GridSource::surfaceBlocks(const Monitor& monitor) const { return mImpl->sampler->surfaceBlocks(monitor); }
 
-void GridSource::fillHermite(const Coord& block, const BlockSigns&, const EdgeIndex& edges,
-                             HermiteBlock& hermite) const {
-  mImpl->sampler->fillHermite(block, edges, mImpl->map, hermite);
+const LatticeMap& GridSource::map() const { return mImpl->map; }
+
+SourceKnowledge GridSource::knowledge() const {
+  using Noise = SourceKnowledge::Noise;
+  const detail::NoiseGrids& noise = mImpl->noise;
+  return {.exactNormals = false,
+          .noise = noise.hasSigma() ? Noise::kSigma
+                   : noise.any()    ? Noise::kWeights
+                                    : Noise::kNone};
+}
+
+void GridSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
+  mImpl->sampler->fillHermite(block.coord, block.edges, mImpl->map, hermite);
+}
+
+void GridSource::fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const {
+  mImpl->noise.fill(block.coord, block.edges, hermite, *mImpl->sampler, noise);
+}
+
+void GridSource::fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock& hermite,
+                                   std::span<const SurfacePatch> patches, FeaturePlanes& planes) const {
+  if (!mImpl->distances) return;
+  const auto read = [&](detail::DistanceStencil& stencil) {
+    mImpl->sampler->readDistances(block.coord, static_cast<float>(1 / mImpl->map.voxelSize()), stencil);
+  };
+  detail::DistanceModel model = *mImpl->distances;
+  if (mImpl->noise.hasSigma()) {
+    model.noise = kBeyond * mImpl->noise.largestSigma(block.coord, block.edges, hermite) / mImpl->map.voxelSize();
+    if (model.noise > kMostNoise) return;
+  }
+  detail::findFeaturePlanes({block.signs, block.edges, hermite, patches}, model, read, planes);
 }
 
 void GridSource::prefetch(const Coord& block) const { mImpl->sampler->prefetch(block); }
 
-void GridSource::fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                                   const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
-                                   FeaturePlanes& planes) const {
-  if (!mImpl->distances) return;
-  const auto read = [&](detail::DistanceStencil& stencil) {
-    mImpl->sampler->readDistances(block, static_cast<float>(1 / mImpl->map.voxelSize()), stencil);
-  };
-  detail::DistanceModel model = *mImpl->distances;
-  if (mImpl->noise.hasSigma()) {
-    model.noise = kBeyond * mImpl->noise.largestSigma(block, edges, hermite) / mImpl->map.voxelSize();
-    if (model.noise > kMostNoise) return;
-  }
-  detail::findFeaturePlanes({signs, edges, hermite, patches}, model, read, planes);
-}
-
-bool GridSource::knowsNoise() const { return mImpl->noise.any(); }
-
-bool GridSource::knowsSigma() const { return mImpl->noise.hasSigma(); }
-
-void GridSource::fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
-                           PlaneNoise& noise) const {
-  mImpl->noise.fill(block, edges, hermite, *mImpl->sampler, noise);
-}
-
-const LatticeMap& GridSource::map() const { return mImpl->map; }
 double GridSource::iso() const { return mImpl->reading.iso; }
 bool GridSource::usesDistances() const { return mImpl->distances.has_value(); }
 double GridSource::valueNoise() const { return mImpl->distances ? mImpl->distances->noise : 0; }

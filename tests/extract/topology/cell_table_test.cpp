@@ -88,13 +88,13 @@ bool facePairsDistinct(int axis, int code0, bool flip0, int code1, bool flip1) {
   std::set<std::pair<int, int>> theirs;
   // The same lattice edge is, in cell 1, the edge one step lower along the axis.
   for (const auto& [a, b] : onFace(s1, 2 * axis)) {
-    const auto across = [&](int e) { return edgeBetween(edgeLowCorner(e) | 1 << axis, edgeHighCorner(e) | 1 << axis); };
+    const auto across = [&](int e) { return edgeBetween(kCellEdge[e].low | 1 << axis, kCellEdge[e].high | 1 << axis); };
     theirs.insert(std::minmax(across(a), across(b)));
   }
   EXPECT_EQ(mine, theirs) << "the cells disagree about the segments of their common face";
   std::set<std::pair<int, int>> vertexPairs;
   for (const auto& [a, b] : mine) {
-    const int back = edgeBetween(edgeLowCorner(a) & ~(1 << axis), edgeHighCorner(a) & ~(1 << axis));
+    const int back = edgeBetween(kCellEdge[a].low & ~(1 << axis), kCellEdge[a].high & ~(1 << axis));
     if (!vertexPairs.insert({patches(code0, flip0).vertex[a], patches(code1, flip1).vertex[back]}).second) return false;
   }
   return true;
@@ -193,7 +193,7 @@ TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
         ASSERT_EQ(here.size(), 1u);
         ASSERT_EQ(there.size(), 1u);
         const int axis = face / 2;
-        const auto flat = [&](int e) { return std::pair{edgeAxis(e), edgeLowCorner(e) & ~(1 << axis)}; };
+        const auto flat = [&](int e) { return std::pair{kCellEdge[e].axis, kCellEdge[e].low & ~(1 << axis)}; };
         ASSERT_EQ(flat(here[0]), flat(there[0])) << "the two cells continue the surface differently, bits " << bits;
         // No other segment of that face may join the same two vertices.
         const Segments s = segments(at.code[k], flip[k]);
@@ -202,7 +202,7 @@ TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
           if (s.at[i].face != face) continue;
           const auto in = [&](int e) {
             return patches(at.code[n], flip[n])
-                .vertex[edgeBetween(edgeLowCorner(e) ^ 1 << axis, edgeHighCorner(e) ^ 1 << axis)];
+                .vertex[edgeBetween(kCellEdge[e].low ^ 1 << axis, kCellEdge[e].high ^ 1 << axis)];
           };
           same += patches(at.code[k], flip[k]).vertex[s.at[i].edge0] ==
                       patches(at.code[k], flip[k]).vertex[EdgeNeighbourhood::centralEdge(k)] &&

@@ -34,7 +34,7 @@ TEST(SuspectIndex, FindsThoseThereAre) {
   std::mt19937 random(6);
   std::vector<SuspectVertex> suspect;
   for (std::uint64_t vertex = 0; vertex < 1000; ++vertex)
-    if (random() % 5 == 0) suspect.push_back({.vertex = vertex, .block = 0, .cell = 0, .place = {}, .safe = {}});
+    if (random() % 5 == 0) suspect.push_back({.vertex = vertex, .block = 0, .cell = {}, .place = {}, .safe = {}});
   const SuspectIndex index(suspect);
   std::ptrdiff_t next = 0;
   for (std::uint64_t vertex = 0; vertex < 2000; ++vertex) {

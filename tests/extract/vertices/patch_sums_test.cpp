@@ -28,7 +28,7 @@ SignSource randomSigns(bool open) {
 struct Block {
   Block(const SignSource& source, const SurfaceBlocks& blocks, const Topology& topology, std::size_t i)
       : edges(blocks.signs[i]) {
-    source.fillHermite(blocks.coords[i], blocks.signs[i], edges, hermite);
+    source.fillHermite({blocks.coords[i], blocks.signs[i], edges}, hermite);
     const Vec3d origin = blockOrigin(blocks.coords[i]);
     crossings.fill(hermite, edges, blockMetric(source.map(), origin), source.map(), origin, SimdLevel::kBaseline);
     std::mt19937 engine(static_cast<unsigned>(i));

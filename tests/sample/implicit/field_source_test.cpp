@@ -47,7 +47,7 @@ std::map<EdgeName, Crossing> crossings(const FieldSource& source, const SurfaceB
   for (std::size_t b = 0; b < surface.coords.size(); ++b) {
     const Coord& block = surface.coords[b];
     const EdgeIndex edges(surface.signs[b]);
-    source.fillHermite(block, surface.signs[b], edges, *hermite);
+    source.fillHermite({block, surface.signs[b], edges}, *hermite);
     edges.forEach([&](int i, int axis, int x, int y, int z) {
       Vec3d p{8.0 * block[0] + x, 8.0 * block[1] + y, 8.0 * block[2] + z};
       const EdgeName name{axis, 8 * block[0] + x, 8 * block[1] + y, 8 * block[2] + z};

@@ -15,6 +15,7 @@ namespace pdc {
 namespace {
 
 using openvdb::FloatGrid;
+using Noise = SourceKnowledge::Noise;
 
 constexpr float kVoxel = 0.1F;
 
@@ -34,15 +35,16 @@ class NoiseGridsTest : public testing::Test {
 
   /// Calls visit(noise, hermite, edges) for each block.
   template <typename Visit>
-  static void forEachBatch(const GridSource& source, Visit&& visit) {
+  static void forEachBlock(const GridSource& source, Visit&& visit) {
     const SurfaceBlocks blocks = source.surfaceBlocks({});
     const auto hermite = std::make_unique<HermiteBlock>();
     const auto noise = std::make_unique<PlaneNoise>();
     ASSERT_FALSE(blocks.coords.empty());
     for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
       const EdgeIndex edges(blocks.signs[i]);
-      source.fillHermite(blocks.coords[i], blocks.signs[i], edges, *hermite);
-      source.fillNoise(blocks.coords[i], edges, *hermite, *noise);
+      const SurfaceBlock block{blocks.coords[i], blocks.signs[i], edges};
+      source.fillHermite(block, *hermite);
+      source.fillNoise(block, *hermite, *noise);
       visit(*noise, *hermite, edges);
     }
   }
@@ -52,16 +54,14 @@ class NoiseGridsTest : public testing::Test {
 
 TEST_F(NoiseGridsTest, WithoutGridsNothingIsKnown) {
   const GridSource source(mGrid);
-  EXPECT_FALSE(source.knowsNoise());
-  EXPECT_FALSE(source.knowsSigma());
+  EXPECT_EQ(source.knowledge().noise, Noise::kNone);
 }
 
 // Of a distance, whose gradient has length one; the factor is that of differences, 0.91 to 1.
 TEST_F(NoiseGridsTest, SigmaIsPropagatedToNormals) {
   const GridSource source(mGrid, {.sigma = companion(*mGrid, 0.2F * kVoxel)});
-  EXPECT_TRUE(source.knowsNoise());
-  EXPECT_TRUE(source.knowsSigma());
-  forEachBatch(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
+  EXPECT_EQ(source.knowledge().noise, Noise::kSigma);
+  forEachBlock(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
     for (int i = 0; i < edges.size(); ++i) {
       ASSERT_NEAR(noise.sigma[i], 0.2 * 0.95, 0.2 * 0.08);
       ASSERT_EQ(noise.weight[i], 1);
@@ -73,12 +73,11 @@ TEST_F(NoiseGridsTest, ValuesAreTakenAlongTheEdge) {
   const auto weight = companion(*mGrid, 1);
   for (auto it = weight->beginValueOn(); it; ++it) it.setValue(static_cast<float>(it.getCoord().x() + 100));
   const GridSource source(mGrid, {.weight = weight});
-  EXPECT_TRUE(source.knowsNoise());
-  EXPECT_FALSE(source.knowsSigma());
+  EXPECT_EQ(source.knowledge().noise, Noise::kWeights);
   std::size_t between = 0;
   const SurfaceBlocks blocks = source.surfaceBlocks({});
   std::size_t block = 0;
-  forEachBatch(source, [&](const PlaneNoise& noise, const HermiteBlock& hermite, const EdgeIndex& edges) {
+  forEachBlock(source, [&](const PlaneNoise& noise, const HermiteBlock& hermite, const EdgeIndex& edges) {
     const int origin = 8 * blocks.coords[block++][0];
     edges.forEach([&](int i, int axis, int x, int, int) {
       const float at = static_cast<float>(origin + x + 100) + (axis == 0 ? hermite.t[i] : 0.0F);
@@ -93,7 +92,7 @@ TEST_F(NoiseGridsTest, ValuesAreTakenAlongTheEdge) {
 TEST_F(NoiseGridsTest, OutsideOfActiveVoxelsIsTheBackground) {
   const auto sigma = FloatGrid::create(0.3F * kVoxel);
   sigma->setTransform(mGrid->transformPtr());
-  forEachBatch(GridSource(mGrid, {.sigma = sigma}),
+  forEachBlock(GridSource(mGrid, {.sigma = sigma}),
                [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
                  for (int i = 0; i < edges.size(); ++i) ASSERT_NEAR(noise.sigma[i], 0.3 * 0.95, 0.3 * 0.08);
                });
@@ -106,7 +105,7 @@ TEST_F(NoiseGridsTest, NegativeAndNonFiniteValuesCountAsZeroAndAreCounted) {
     it.setValue(n++ % 2 == 0 ? -1 : std::numeric_limits<float>::quiet_NaN());
   const GridSource source(mGrid, {.weight = weight});
   EXPECT_EQ(source.refusedNoise(), static_cast<std::size_t>(n));
-  forEachBatch(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
+  forEachBlock(source, [](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
     for (int i = 0; i < edges.size(); ++i) ASSERT_EQ(noise.weight[i], 0);
   });
   // All crossings then count the same.

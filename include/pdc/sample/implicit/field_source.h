@@ -27,9 +27,8 @@ class FieldSource final : public HermiteSource {
   FieldSource(FieldPtr field, const FieldSourceOptions& options);
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
-  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                   HermiteBlock& hermite) const override;
-  [[nodiscard]] bool exactNormals() const override { return true; }
+  [[nodiscard]] SourceKnowledge knowledge() const override { return {.exactNormals = true}; }
+  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override;
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }
   /// What is contoured: zero on the surface, negative inside, cut off at the box unless open.
   [[nodiscard]] const FieldPtr& levelField() const { return mField; }

@@ -63,17 +63,13 @@ class GridSource final : public HermiteSource {
   ~GridSource() override;
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
-  void fillHermite(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                   HermiteBlock& hermite) const override;
-  void prefetch(const Coord& block) const override;
-  void fillFeaturePlanes(const Coord& block, const BlockSigns& signs, const EdgeIndex& edges,
-                         const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
-                         FeaturePlanes& planes) const override;
-  [[nodiscard]] bool knowsNoise() const override;
-  [[nodiscard]] bool knowsSigma() const override;
-  void fillNoise(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite,
-                 PlaneNoise& noise) const override;
   [[nodiscard]] const LatticeMap& map() const override;
+  [[nodiscard]] SourceKnowledge knowledge() const override;
+  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override;
+  void fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const override;
+  void fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
+                         FeaturePlanes& planes) const override;
+  void prefetch(const Coord& block) const override;
 
   [[nodiscard]] double iso() const;
   [[nodiscard]] bool insideIsHigher() const;

@@ -4,25 +4,31 @@
 #include <bit>
 #include <cstdint>
 
+#include "pdc/math/vec3.h"
 #include "pdc/sample/feature_planes.h"
 #include "pdc/sample/hermite_block.h"
 
+/// How the corners and edges of a cell are numbered: corner c = x + 2y + 4z; edge e = 4·axis + k, whose lower corner
+/// lies at bit 0 of k along the next axis and at bit 1 of k along the one after.
 namespace pdc::detail {
+
+inline constexpr int kCorners = 8, kEdges = 12;
 
 /// An edge of a cell.
 struct CellEdge {
-  int axis, low, high;  ///< Its ends among the cell's corners, x + 2y + 4z.
-  int slot;             ///< In EdgeIndex, from that of the cell's lowest corner along x.
+  Axis axis;
+  int low, high;  ///< Its ends among the cell's corners.
+  int slot;       ///< In EdgeIndex, from that of the cell's lowest corner along x.
 };
 
-/// By number in SurfacePatch.
+/// By number.
 inline constexpr auto kCellEdge = [] {
-  std::array<CellEdge, 12> edges{};
-  for (int e = 0; e < 12; ++e) {
-    const int axis = e >> 2;
+  std::array<CellEdge, kEdges> edges{};
+  for (int e = 0; e < kEdges; ++e) {
+    const Axis axis = kAxes[e / 4];
     std::array<int, 3> low{};
-    low[(axis + 1) % 3] = e & 1;
-    low[(axis + 2) % 3] = e >> 1 & 1;
+    low[nextAxis(axis)] = e & 1;
+    low[lastAxis(axis)] = e >> 1 & 1;
     const int corner = low[0] + 2 * low[1] + 4 * low[2];
     edges[e] = {axis, corner, corner | 1 << axis, EdgeIndex::slot(axis, low[0], low[1], low[2])};
   }
@@ -30,6 +36,7 @@ inline constexpr auto kCellEdge = [] {
 }();
 
 /// A corner of a cell, from its lowest one.
+constexpr Coord cornerStep(int corner) { return {corner & 1, corner >> 1 & 1, corner >> 2}; }
 constexpr Vec3d cornerPlace(int corner) { return {double(corner & 1), double(corner >> 1 & 1), double(corner >> 2)}; }
 
 /// The corners of a cell of a block that are inside, a bit each.
@@ -40,16 +47,13 @@ constexpr int cellCode(const BlockSigns& signs, int x, int y, int z) {
          (r01 >> 1) << 6 | (r11 >> 1) << 7;
 }
 
-/// The lowest corner of a patch's cell, in its block.
-constexpr Coord cellOf(const SurfacePatch& p) { return {p.cell >> 6, p.cell >> 3 & 7, p.cell & 7}; }
-
-/// Where EdgeIndex::numbers() starts for the cell of a patch: that of CellEdge::slot.
-constexpr int slotOf(const SurfacePatch& p) { return EdgeIndex::slot(0, p.cell >> 6, p.cell >> 3 & 7, p.cell & 7); }
+/// Where EdgeIndex::numbers() starts for a cell: what CellEdge::slot counts from.
+constexpr int slotOf(BlockCell cell) { return EdgeIndex::slot(kAxisX, cell.x(), cell.y(), cell.z()); }
 
 /// Calls visit(edge of the cell, its number in the block) for each of a patch's edges, in ascending order.
 template <typename Visit>
 void forEachEdge(const SurfacePatch& patch, const EdgeIndex& edges, Visit&& visit) {
-  const std::uint16_t* number = edges.numbers() + slotOf(patch);
+  const std::uint16_t* number = edges.numbers() + slotOf(patch.cell);
   for (unsigned bits = patch.edges; bits != 0; bits &= bits - 1) {
     const int e = std::countr_zero(bits);
     visit(e, int{number[kCellEdge[e].slot]});

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "pdc/math/vec3.h"
+#include "pdc/sample/feature_planes.h"
+#include "sample/cell_edges.h"
+
+namespace pdc::detail {
+
+/// Hermite data of one surface patch in lattice units about the centre of its cell.
+struct PatchSamples {
+  static constexpr int kMax = kEdges;
+  std::array<Vec3d, kMax> position;
+  /// The row Mᵀn of each plane: |row · (x − position)| is the distance to it in voxels, measured in world space. Zero
+  /// where there is no normal.
+  std::array<Vec3d, kMax> row;
+  int size = 0;
+  /// What is known of each plane, if anything is: σn² besides the solver's, and its weight.
+  bool noisy = false;
+  std::array<double, kMax> variance, weight;
+  /// Planes that take the place of those above, which then say only where the patch is; `point` from the centre too.
+  std::span<const FeaturePlanes::Plane> features{};
+  double featureSigma = 0;  ///< σn of them.
+};
+
+/// Mean squared distance of a place from the planes that place the vertex, in voxels squared.
+[[nodiscard]] double planeError(const PatchSamples& samples, const Vec3d& x);
+
+}  // namespace pdc::detail
