@@ -11,14 +11,17 @@
 #include "extract/topology/continuation.h"
 #include "extract/topology/surface.h"
 #include "extract/vertex_confidence.h"
+#include "extract/vertex_quadrics.h"
 #include "parallel/with_threads.h"
 
 namespace pdc {
 namespace {
 
-void checkOptions(const ContourOptions& options) {
+void checkOptions(const ContourOptions& options, const ContourReport* report) {
   if (options.sigmaNormal && !(*options.sigmaNormal >= 0))
     throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", *options.sigmaNormal));
+  if (options.quadrics && report == nullptr)
+    throw std::invalid_argument("contour: quadrics are asked for without a report to put them into");
   if (options.threads < 0)
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
 }
@@ -59,6 +62,8 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   if (promised) certified = certify(surface, suspects, mesh, monitor);
   if (options.confidence || options.ranks)
     addVertexConfidence(surface, (options.sigmaNormal ? sigmaFromData() : sigma).noise(), options, mesh, monitor);
+  Buffer<Quadric<float>> quadrics;
+  if (options.quadrics) quadrics = vertexQuadrics(surface, sigma, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),
@@ -73,7 +78,8 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .forcedDiagonals = certified.forcedDiagonals,
                .fans = certified.fans,
                .normalNoise = sigma.noise(),
-               .uncertified = certified.uncertified};
+               .uncertified = certified.uncertified,
+               .quadrics = std::move(quadrics)};
   return mesh;
 }
 
@@ -81,7 +87,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
 
 Mesh contour(const HermiteSource& source, const ContourOptions& options, ContourReport* report,
              const Monitor& monitor) {
-  checkOptions(options);
+  checkOptions(options, report);
   return detail::withThreads(options.threads, [&] { return run(source, options, report, monitor); });
 }
 

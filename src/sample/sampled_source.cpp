@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "parallel/isolated.h"
+
 namespace pdc {
 
 SampledSource::SampledSource(const HermiteSource& source, const Monitor& monitor)
@@ -28,13 +30,15 @@ SampledSource::SampledSource(const HermiteSource& source, const Monitor& monitor
       [] { return std::make_unique<HermiteBlock>(); });
   tbb::parallel_for(all, [&](const auto& range) {
     monitor.throwIfStopped();
-    HermiteBlock& hermite = *scratch.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const EdgeIndex edges(mBlocks.signs[i]);
-      source.fillHermite({mBlocks.coords[i], mBlocks.signs[i], edges}, hermite);
-      Crossing* out = mCrossings.data() + mFirst[i];
-      for (int e = 0; e < edges.size(); ++e) out[e] = {hermite.t[e], hermite.nx[e], hermite.ny[e], hermite.nz[e]};
-    }
+    detail::isolated([&] {
+      HermiteBlock& hermite = *scratch.local();
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const EdgeIndex edges(mBlocks.signs[i]);
+        source.fillHermite({mBlocks.coords[i], mBlocks.signs[i], edges}, hermite);
+        Crossing* out = mCrossings.data() + mFirst[i];
+        for (int e = 0; e < edges.size(); ++e) out[e] = {hermite.t[e], hermite.nx[e], hermite.ny[e], hermite.nz[e]};
+      }
+    });
   });
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "parallel/isolated.h"
 #include "pdc/sample/hermite_source.h"
 
 namespace pdc::detail {
@@ -69,9 +70,12 @@ std::vector<Result> mapSurfacePairs(const HermiteSource& source, const Monitor& 
       [] { return std::make_unique<HermiteBlock>(); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size()), [&](const auto& range) {
     monitor.throwIfStopped();
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      forEachSurfaceSquare(source, blocks.coords[i], blocks.signs[i], *scratch.local(),
-                           [&](const SurfacePoint& a, const SurfacePoint& b) { visit(a, b, found[i]); });
+    isolated([&] {
+      HermiteBlock& hermite = *scratch.local();
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        forEachSurfaceSquare(source, blocks.coords[i], blocks.signs[i], hermite,
+                             [&](const SurfacePoint& a, const SurfacePoint& b) { visit(a, b, found[i]); });
+    });
   });
   std::vector<Result> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());

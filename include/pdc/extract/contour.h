@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "pdc/math/quadric.h"
 #include "pdc/mesh/mesh.h"
 #include "pdc/sample/hermite_source.h"
 
@@ -38,13 +39,15 @@ struct ContourOptions {
   /// Also the rank of each vertex: the number of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the
   /// trace, so that planes at 26° or more count as two.
   bool ranks = false;
+  /// Also ContourReport::quadrics. Costs about as much again as contouring, and 40 bytes per vertex.
+  bool quadrics = false;
   int threads = 0;  ///< 0: all. The result does not depend on it, byte for byte.
 };
 
 /// The standard deviation, in voxels, of a vertex whose confidence is one half.
 inline constexpr double kHalfConfidence = 0.1;
 
-/// Counts of one contour() call; no verdicts.
+/// What one contour() call counted, no verdicts, and what it was asked to hand out.
 struct ContourReport {
   std::size_t blocks = 0;                  ///< Blocks that hold surface.
   std::size_t crossings = 0;               ///< Sign-changing edges with a face.
@@ -59,6 +62,12 @@ struct ContourReport {
   std::size_t fans = 0;                    ///< Quads replaced by triangles about the crossing of their lattice edge.
   double normalNoise = 0;                  ///< Estimated where σn came from the data; else 0.
   std::size_t uncertified = 0;             ///< Pairs of faces that still meet where they should not: see contour().
+  /// Empty, or the quadric of each vertex, by its number in the mesh: the sum of the patch's probabilistic plane
+  /// quadrics with the σn that placed it. Its origin is the vertex's position in the mesh, its unit the world unit, so
+  /// that it is f(x) in world units squared for x = p − positions[i]; positive definite for 0 < σn. Vertices that
+  /// certifying added (the centres of fans, and those in the faces of split cells) have the mean of their neighbours'
+  /// quadrics.
+  Buffer<Quadric<float>> quadrics{};
 };
 
 /// Dual contouring with probabilistic plane quadrics (Ju et al. 2002; Trettner & Kobbelt 2020, equations 6-8,
@@ -77,9 +86,9 @@ struct ContourReport {
 /// voxels from the origin, where single precision cannot tell a cell's walls apart; there `uncertified` counts what is
 /// left.
 ///
-/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, or for a source whose blocks
-/// are not sorted; Error if the mesh would have more than 2^32 vertices, before any is made; Cancelled; whatever the
-/// source throws.
+/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, for quadrics without a report
+/// to put them into, and for a source whose blocks are not sorted or not closed under continuation; Error if the mesh
+/// would have more than 2^32 vertices, before any is made; Cancelled; whatever the source throws.
 [[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {},
                            ContourReport* report = nullptr, const Monitor& monitor = {});
 

@@ -11,6 +11,7 @@
 #include "extract/faces/block_faces.h"
 #include "extract/faces/block_groups.h"
 #include "parallel/block_progress.h"
+#include "parallel/isolated.h"
 
 namespace pdc::detail {
 namespace {
@@ -95,7 +96,7 @@ class MeshFiller {
     tbb::enumerable_thread_specific<FacelessBlocks> waiting;
     tbb::parallel_for(std::size_t{0}, groups.count(), [&](std::size_t) {
       mMonitor.throwIfStopped();
-      fillGroup(groups.take(), groups, waiting.local());
+      isolated([&] { fillGroup(groups.take(), groups, waiting.local()); });
     });
     FacelessBlocks rest;
     for (const FacelessBlocks& some : waiting) rest.insert(rest.end(), some.begin(), some.end());

@@ -36,14 +36,15 @@ class SigmaNormal {
   [[nodiscard]] T variance(const SymMat3<T>& A, T weight, const SymMat3<T>& H) const {
     const Vec3<T> b0 = H * Vec3<T>{A.xx, A.xy, A.xz}, b1 = H * Vec3<T>{A.xy, A.yy, A.yz},
                   b2 = H * Vec3<T>{A.xz, A.yz, A.zz};
-    return fromTraces(b0.x + b1.y + b2.z,
-                      b0.x * b0.x + b1.y * b1.y + b2.z * b2.z + 2 * (b0.y * b1.x + b0.z * b2.x + b1.z * b2.y), weight);
+    return varianceFromTraces(b0.x + b1.y + b2.z,
+                              b0.x * b0.x + b1.y * b1.y + b2.z * b2.z + 2 * (b0.y * b1.x + b0.z * b2.x + b1.z * b2.y),
+                              weight);
   }
-  /// The same for H = I.
+  /// σn² of a patch where H = I.
   template <typename T>
   [[nodiscard]] T variance(const SymMat3<T>& A, T weight) const {
-    return fromTraces(A.trace(),
-                      A.xx * A.xx + A.yy * A.yy + A.zz * A.zz + 2 * (A.xy * A.xy + A.xz * A.xz + A.yz * A.yz), weight);
+    return varianceFromTraces(
+        A.trace(), A.xx * A.xx + A.yy * A.yy + A.zz * A.zz + 2 * (A.xy * A.xy + A.xz * A.xz + A.yz * A.yz), weight);
   }
 
  private:
@@ -58,20 +59,22 @@ class SigmaNormal {
   /// The spread of normals half-way between flat and crease without noise, and how it grows with the noise's variance.
   static constexpr double kSpread = 0.01, kSpreadPerVariance = 4;
 
-  /// With B = HA: 1 − tr B² / (tr B)² is zero where all normals agree, and twice their variance where that is small.
+  /// σn² of a patch from the traces of B = HA and of B², where A = Σ wᵢ(nᵢnᵢᵀ + vᵢI) over planes with weights wᵢ and
+  /// variances vᵢ of their own. Of the planes alone, P = Σ wᵢnᵢnᵢᵀ, the ratio 1 − tr P² / (tr P)² is zero where all
+  /// normals agree, and twice their variance where that is small.
   template <typename T>
-  [[nodiscard]] T fromTraces(T trace, T ofSquare, T weight) const {
+  [[nodiscard]] T varianceFromTraces(T trace, T traceOfSquare, T weight) const {
     const auto c = [](double v) { return static_cast<T>(v); };
-    // A variance v of each plane adds v I.
+    // tr B is Σ wᵢ(1 + 3vᵢ): what it exceeds the weight by tells the mean of the vᵢ, v. Then P = B − Σwᵢ v I.
     const T excess = (trace / weight - 1) / 3;
-    const T own = mOwnNoise && excess > 0 ? excess : T(0);
-    const T noise2 = own + c(mNoise * mNoise), added = weight * own;
-    const T whole = (trace - 3 * added) * (trace - 3 * added);
-    const T spread = whole - (ofSquare + added * (3 * added - 2 * trace));
-    const T ratio = spread / ((c(kSpread) + c(kSpreadPerVariance) * noise2) * whole);
-    const T known = whole > 0 ? ratio : T(0);
-    const T flat = c(kFlat) + c(kFlatPerNoise) * std::sqrt(noise2);
-    return c(mVariance) + flat * flat / (1 + known * known);
+    const T ownVariance = mOwnNoise && excess > 0 ? excess : T(0);
+    const T noiseVariance = ownVariance + c(mNoise * mNoise), added = weight * ownVariance;
+    const T squareOfTrace = (trace - 3 * added) * (trace - 3 * added);
+    const T difference = squareOfTrace - (traceOfSquare + added * (3 * added - 2 * trace));
+    const T half = c(kSpread) + c(kSpreadPerVariance) * noiseVariance;
+    const T spread = squareOfTrace > 0 ? difference / (half * squareOfTrace) : T(0);
+    const T flatSigma = c(kFlat) + c(kFlatPerNoise) * std::sqrt(noiseVariance);
+    return c(mVariance) + flatSigma * flatSigma / (1 + spread * spread);
   }
 
   double mVariance;

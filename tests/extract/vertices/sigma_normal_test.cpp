@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <optional>
+#include <random>
+#include <vector>
 
 #include "pdc/extract/contour.h"
 #include "pdc/field/operators.h"
@@ -46,6 +48,45 @@ TEST(SigmaNormal, FlatPatchesGetMoreThanCreases) {
 TEST(SigmaNormal, APatchMayNotHaveNormals) {
   EXPECT_GT(SigmaNormal::ofNoise(0.05).variance(SymMat3<double>{}, 3.0), 0);
   EXPECT_GT(SigmaNormal::ofNoise(0.05).variance(SymMat3<float>{}, 3.0F), 0);
+}
+
+/// σn² straight from the definition: planes with weights and variances of their own, whose mean is taken away again.
+double varianceByDefinition(const std::vector<Vec3d>& normals, const std::vector<double>& weights,
+                            double meanVariance) {
+  Mat3d P{{Vec3d{}, Vec3d{}, Vec3d{}}};
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (int k = 0; k < 3; ++k) P.row[k] += normals[i] * (normals[i][k] * weights[i]);
+  double trace = 0, traceOfSquare = 0;
+  for (int k = 0; k < 3; ++k) {
+    trace += P.row[k][k];
+    for (int j = 0; j < 3; ++j) traceOfSquare += P.row[k][j] * P.row[j][k];
+  }
+  const double spread = (1 - traceOfSquare / (trace * trace)) / (0.01 + 4 * meanVariance);
+  const double flat = 0.7 + 4 * std::sqrt(meanVariance);
+  return 0.02 * 0.02 + flat * flat / (1 + spread * spread);
+}
+
+TEST(SigmaNormal, TakesEachPlanesOwnVarianceOutOfTheSpread) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const SigmaNormal sigma = SigmaNormal::ofOwnNoise();
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Vec3d> normals;
+    std::vector<double> weights;
+    SymMat3<double> A{};
+    double weight = 0;
+    const double variance = 0.02 * (1 + uniform(engine));
+    for (int i = 0; i < 5; ++i) {
+      Vec3d n{1, 0.4 * uniform(engine), 0.4 * uniform(engine)};
+      n *= 1 / length(n);
+      const double w = 1.5 + uniform(engine);
+      normals.push_back(n);
+      weights.push_back(w);
+      A += outer(n).plusDiagonal(variance) * w;
+      weight += w;
+    }
+    ASSERT_NEAR(sigma.variance(A, weight), varianceByDefinition(normals, weights, variance), 1e-9);
+  }
 }
 
 // Rows are Mᵀn: in their metric G = MᵀM they say the same.
