@@ -1,10 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "pdc/math/vec3.h"
 #include "pdc/mesh/buffer.h"
+#include "pdc/mesh/vertex_property.h"
 
 namespace pdc {
 
@@ -17,13 +22,26 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// the triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
 struct Mesh {
   Buffer<Vec3f> positions;
-  Buffer<Vec3f> normals;       ///< Empty, or one unit vector per vertex.
-  Buffer<float> confidence;    ///< Empty, or one number in [0, 1] per vertex; see ContourOptions.
-  Buffer<std::uint8_t> ranks;  ///< Empty, or one per vertex: 1 on a flat part, 2 on an edge, 3 at a corner.
+  Buffer<Vec3f> normals;                   ///< Empty, or one unit vector per vertex.
+  std::vector<VertexProperty> properties;  ///< What else is known of each vertex.
   Buffer<Quad> quads;
   Buffer<Triangle> triangles;
 
   [[nodiscard]] bool empty() const { return quads.empty() && triangles.empty(); }
+
+  /// The property of that name; null if there is none.
+  [[nodiscard]] const VertexProperty* property(std::string_view name) const {
+    const auto it =
+        std::find_if(properties.begin(), properties.end(), [name](const auto& p) { return p.name == name; });
+    return it == properties.end() ? nullptr : &*it;
+  }
+  /// Its numbers, those of a vector one after the other; empty if there is none of that name and type.
+  template <typename Number>
+  [[nodiscard]] std::span<const Number> values(std::string_view name) const {
+    const VertexProperty* const found = property(name);
+    const auto* const numbers = found == nullptr ? nullptr : std::get_if<Buffer<Number>>(&found->values);
+    return numbers == nullptr ? std::span<const Number>() : std::span<const Number>(*numbers);
+  }
 };
 
 }  // namespace pdc

@@ -28,29 +28,18 @@ Mesh parse(detail::MeshFormat format, std::string_view bytes) {
   return detail::readOff(bytes);
 }
 
-/// Calls take(bytes) with the file's; errors name the file.
-template <typename Take>
-auto withBytes(const std::filesystem::path& path, Take&& take) {
+}  // namespace
+
+Mesh readMesh(const std::filesystem::path& path) {
+  const detail::MeshFormat format = detail::meshFormat(path);
   try {
     const Buffer<char> bytes = detail::readFile(path);
-    return take(std::string_view(bytes.data(), bytes.size()));
+    return parse(format, {bytes.data(), bytes.size()});
   } catch (const Error& error) {
     throw detail::fileError(path, error.what());
   } catch (const std::bad_alloc&) {
     throw detail::fileError(path, "does not fit into memory");
   }
-}
-
-}  // namespace
-
-Mesh readMesh(const std::filesystem::path& path) {
-  const detail::MeshFormat format = detail::meshFormat(path);
-  return withBytes(path, [&](std::string_view bytes) { return parse(format, bytes); });
-}
-
-std::optional<Buffer<float>> readVertexProperty(const std::filesystem::path& path, const std::string& name) {
-  if (detail::meshFormat(path) != detail::MeshFormat::kPly) return std::nullopt;
-  return withBytes(path, [&](std::string_view bytes) { return detail::readPlyProperty(bytes, name); });
 }
 
 }  // namespace pdc

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "pdc/mesh/mesh.h"
 
@@ -13,6 +15,7 @@ class SoupBuilder {
  public:
   void addVertex(const Vec3f& position) { mMesh.positions.push_back(position); }
   void addNormal(const Vec3f& normal) { mMesh.normals.push_back(normal); }
+  void setProperties(std::vector<VertexProperty> properties) { mMesh.properties = std::move(properties); }
   /// Three corners make a triangle, four a quad, more a fan of triangles. The vertices may be added later.
   /// \throws Error for fewer than three corners or an index that no mesh can have.
   void addFace(std::span<const std::int64_t> corners);

@@ -145,18 +145,77 @@ TEST(ReadMesh, PlyWithOtherElementsListsCommentsAndCarriageReturns) {
   EXPECT_EQ(mesh.normals[3], (Vec3f{0, 1, 0}));
 }
 
+/// A .ply as text with these columns besides x, y and z, and one vertex at the origin.
+Mesh readVertex(const std::string& columns, const std::string& numbers) {
+  return readText("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
+                      columns + "end_header\n0 0 0 " + numbers + "\n");
+}
+
 TEST(ReadMesh, PlyPropertiesOfVertices) {
-  const TemporaryFolder folder;
-  writeContents(folder / "a.ply",
-                "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
-                "property double confidence\nproperty float x\nproperty float y\nproperty float z\n"
-                "property list uchar int tags\nend_header\n3 0 1 2\n0.5 0 0 0 0\n0.25 1 0 0 2 7 8\n1 0 1 0 1 9\n");
-  EXPECT_EQ(readVertexProperty(folder / "a.ply", "confidence"), (Buffer<float>{0.5F, 0.25F, 1}));
-  EXPECT_EQ(readVertexProperty(folder / "a.ply", "y"), (Buffer<float>{0, 0, 1}));
-  for (const char* name : {"error", "tags", "vertex_indices"}) EXPECT_FALSE(readVertexProperty(folder / "a.ply", name));
-  writeContents(folder / "a.off", "OFF\n0 0 0\n");
-  EXPECT_FALSE(readVertexProperty(folder / "a.off", "confidence"));
-  EXPECT_THROW(static_cast<void>(readVertexProperty(folder / "none.ply", "confidence")), Error);
+  const Mesh mesh = readText(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
+      "property double confidence\nproperty float x\nproperty float y\nproperty float z\nproperty uchar rank\n"
+      "property list uchar int tags\nend_header\n3 0 1 2\n0.5 0 0 0 1 0\n0.25 1 0 0 2 2 7 8\n1 0 1 0 255 1 9\n");
+  ASSERT_EQ(mesh.properties.size(), 2u);
+  EXPECT_EQ(mesh.properties[0], (VertexProperty{"confidence", 1, Buffer<double>{0.5, 0.25, 1}}));
+  EXPECT_EQ(mesh.properties[1], (VertexProperty{"rank", 1, Buffer<std::uint8_t>{1, 2, 255}}));
+}
+
+TEST(ReadMesh, PlyNumbersOfAllTypesArriveAsTheyAre) {
+  const std::vector<VertexProperty> expected{{"a", 1, Buffer<std::int8_t>{-128}},
+                                             {"b", 1, Buffer<std::uint8_t>{255}},
+                                             {"c", 1, Buffer<std::int16_t>{-32768}},
+                                             {"d", 1, Buffer<std::uint16_t>{65535}},
+                                             {"e", 1, Buffer<std::int32_t>{-2147483647 - 1}},
+                                             {"f", 1, Buffer<std::uint32_t>{4294967295u}},
+                                             {"g", 1, Buffer<float>{0.1F}},
+                                             {"h", 1, Buffer<double>{0.1}}};
+  const std::string columns =
+      "property char a\nproperty uint8 b\nproperty short c\nproperty uint16 d\nproperty int e\nproperty uint32 f\n"
+      "property float32 g\nproperty double h\n";
+  EXPECT_EQ(readVertex(columns, "-128 255 -32768 65535 -2147483648 4294967295 0.1 0.1").properties, expected);
+  const std::string head = "ply\nformat binary_big_endian 1.0\nelement vertex 1\n";
+  const std::string body = bytes(std::int8_t{-128}) + bytes(std::uint8_t{255}) + swapped(bytes(std::int16_t{-32768})) +
+                           bytes(std::uint16_t{65535}) + swapped(bytes(std::int32_t{-2147483647 - 1})) +
+                           bytes(std::uint32_t{4294967295u}) + swapped(bytes(0.1F)) + swapped(bytes(0.1));
+  EXPECT_EQ(readText("a.ply", head + columns + "property char x\nproperty char y\nproperty char z\nend_header\n" +
+                                  body + std::string(3, '\0'))
+                .properties,
+            expected);
+}
+
+TEST(ReadMesh, PlyColumnsOfAVectorBecomeOneProperty) {
+  const Mesh mesh = readVertex(
+      "property float v_x\nproperty float v_y\nproperty float v_z\nproperty int w_x\nproperty int w_y\n"
+      "property uchar c_x\nproperty uchar c_y\nproperty uchar c_z\nproperty uchar c_w\n",
+      "1 2 3 4 5 6 7 8 9");
+  EXPECT_EQ(mesh.properties, (std::vector<VertexProperty>{{"v", 3, Buffer<float>{1, 2, 3}},
+                                                          {"w", 2, Buffer<std::int32_t>{4, 5}},
+                                                          {"c", 4, Buffer<std::uint8_t>{6, 7, 8, 9}}}));
+}
+
+TEST(ReadMesh, PlyColumnsThatAreNoVectorStaySingle) {
+  const auto names = [](const std::string& columns, const std::string& numbers) {
+    std::vector<std::string> result;
+    for (const VertexProperty& p : readVertex(columns, numbers).properties) {
+      EXPECT_EQ(p.components, 1) << p.name;
+      result.push_back(p.name);
+    }
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names("property float v_x\nproperty double v_y\n", "1 2"), (Names{"v_x", "v_y"})) << "of two types";
+  EXPECT_EQ(names("property float v_y\nproperty float v_x\n", "1 2"), (Names{"v_y", "v_x"})) << "out of order";
+  EXPECT_EQ(names("property float v_x\nproperty float w\nproperty float v_y\n", "1 2 3"), (Names{"v_x", "w", "v_y"}));
+  EXPECT_EQ(names("property float v\nproperty float v_x\nproperty float v_y\n", "1 2 3"), (Names{"v", "v_x", "v_y"}));
+  EXPECT_EQ(names("property float _x\nproperty float _y\n", "1 2"), (Names{"_x", "_y"})) << "without a name";
+}
+
+TEST(ReadMesh, PlyColumnsOfOneNameAreTheFirst) {
+  const Mesh mesh = readVertex("property float a\nproperty uchar a\nproperty float b\n", "1 2 3");
+  EXPECT_EQ(mesh.properties, (std::vector<VertexProperty>{{"a", 1, Buffer<float>{1}}, {"b", 1, Buffer<float>{3}}}));
 }
 
 TEST(ReadMesh, PlyWithFacesFirst) {
@@ -270,6 +329,12 @@ TEST(ReadMesh, DamagedPlyIsAnError) {
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty vec3 x\n" + end + "1\n"), "line 4: malformed property");
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty float x\n" + end + "1\n"),
             "PLY vertices need x, y and z, each once");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyVertices + end + vertices + vertices),
+            "a PLY file with two elements named vertex");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + "property uchar red\n" + end + "0 0 0 255\n0 0 0 256\n0 0 0 1\n"),
+            "vertex 1: \"red\" is 256, which is no uchar");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + "property int k\n" + end + "0 0 0 0.5\n0 0 0 0\n0 0 0 0\n"),
+            "vertex 0: \"k\" is 0.5, which is no int");
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 4000000000\n" + end + "1\n"),
             "PLY element vertex has no properties");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 1 3\n"),
