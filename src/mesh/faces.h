@@ -19,9 +19,6 @@ inline std::span<const std::uint32_t> face(const Mesh& mesh, std::size_t i) {
   return mesh.triangles[i - mesh.quads.size()];
 }
 
-/// \throws Error if a face names a vertex that does not exist.
-void checkIndices(const Mesh& mesh);
-
 // All triangles of a mesh under one number: the two of each quad first, then the others.
 
 inline std::size_t triangleCount(const Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }

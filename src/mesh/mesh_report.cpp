@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 namespace {
@@ -282,6 +283,7 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 }  // namespace
 
 MeshReport analyze(const Mesh& mesh) {
+  detail::checkSizes(mesh, "analyze");
   detail::checkIndices(mesh);
   MeshReport report;
   report.vertices = mesh.positions.size();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 namespace {
@@ -31,6 +32,7 @@ std::vector<Vec3d> vertexNormals(const Mesh& mesh) {
 }  // namespace
 
 std::vector<std::uint8_t> flatVertices(const Mesh& mesh, double degrees) {
+  detail::checkSizes(mesh, "flatVertices");
   detail::checkIndices(mesh);
   const double least = std::cos(degrees * std::numbers::pi / 180);
   const std::vector<Vec3d> normals = vertexNormals(mesh);
@@ -44,6 +46,7 @@ std::vector<std::uint8_t> flatVertices(const Mesh& mesh, double degrees) {
 }
 
 double roughness(const Mesh& mesh, const std::vector<std::uint8_t>& chosen) {
+  detail::checkSizes(mesh, "roughness");
   detail::checkIndices(mesh);
   const std::vector<Vec3d> normals = vertexNormals(mesh);
   std::vector<Vec3d> sums(normals.size(), Vec3d{});

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 #include "mesh/triangle_tree.h"
 #include "pdc/error.h"
 
@@ -165,6 +166,7 @@ class Search {
 }  // namespace
 
 SelfIntersections selfIntersections(const Mesh& mesh, const SelfIntersectionOptions& options, const Monitor& monitor) {
+  detail::checkSizes(mesh, "selfIntersections");
   detail::checkIndices(mesh);
   monitor.throwIfStopped();
   Candidates candidates = candidatesOf(mesh);

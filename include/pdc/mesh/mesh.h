@@ -20,6 +20,12 @@ using Triangle = std::array<std::uint32_t, 3>;
 ///
 /// Positions are world coordinates. Faces are counter-clockwise seen from outside. A quad (v0, v1, v2, v3) stands for
 /// the triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
+///
+/// A passive value that checks nothing itself. Every function that takes one throws std::invalid_argument for arrays
+/// that do not fit together (normals, or a property's numbers, that are neither none nor one for each vertex; a
+/// property without a name, with another's name, or with less than 1 or more than 4 components), and Error for a face
+/// that names a vertex that does not exist. Coordinates may be NaN or infinite, faces may name a vertex twice: each
+/// function says what it makes of those. Several threads may read one mesh at a time.
 struct Mesh {
   Buffer<Vec3f> positions;
   Buffer<Vec3f> normals;                   ///< Empty, or one unit vector per vertex.

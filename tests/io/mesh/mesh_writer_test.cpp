@@ -362,6 +362,14 @@ TEST(WriteMesh, MistakesOfTheCaller) {
   EXPECT_THROW(writeMesh(mesh, folder / "missing/a.ply"), Error);
   mesh.normals.resize(3);
   EXPECT_THROW(writeMesh(mesh, folder / "a.ply"), std::invalid_argument);
+  mesh.normals.clear();
+  mesh.properties = {{"confidence", 1, Buffer<float>(4)}};
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
+    EXPECT_THROW(writeMesh(mesh, folder / name), std::invalid_argument) << name;
+  mesh.properties.clear();
+  mesh.quads[0][2] = 5;
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
+    EXPECT_THROW(writeMesh(mesh, folder / name), Error) << name;
   EXPECT_EQ(folder.entries(), 0u);
 }
 

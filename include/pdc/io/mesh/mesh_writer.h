@@ -22,9 +22,9 @@ void checkMeshPath(const std::filesystem::path& path);
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed and whatever stood under the name stays.
-/// \returns bytes written. \throws Error if the file cannot be written; std::invalid_argument for a mesh whose arrays
-/// do not fit together, and for a .ply whose properties' names are empty, hold blanks or control characters, or come
-/// twice, x, y, z, nx, ny and nz included.
+/// \returns bytes written. \throws Error if the file cannot be written or a face names a vertex that does not exist;
+/// std::invalid_argument for a mesh whose arrays do not fit together, and for a .ply whose properties' names are empty,
+/// hold blanks or control characters, or come twice, x, y, z, nx, ny and nz included.
 std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options = {});
 
 }  // namespace pdc
