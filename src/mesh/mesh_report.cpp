@@ -1,18 +1,18 @@
 #include "pdc/mesh/mesh_report.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 
@@ -20,19 +20,15 @@ namespace pdc {
 namespace {
 
 using Index = std::uint32_t;
+using detail::Connectivity;
+using detail::EdgeFace;
 using detail::face;
 using detail::faceCount;
 using detail::isFinite;
+using detail::OneRing;
 
 /// Grain of all reductions: sums are split the same way whatever the number of threads.
 constexpr std::size_t kGrain = 4096;
-
-/// One corner of one face: the vertex and its two neighbours along the face. Sorted by vertex, the corners of a vertex
-/// tell all about its fan and its edges, in 12 bytes per corner and without a map.
-struct Corner {
-  Index vertex, previous, next;
-  friend auto operator<=>(const Corner&, const Corner&) = default;
-};
 
 template <typename Value, typename Visit>
 Value sumOver(std::size_t count, Visit&& visit) {
@@ -43,21 +39,6 @@ Value sumOver(std::size_t count, Visit&& visit) {
         return sum;
       },
       [](Value a, const Value& b) { return a += b; });
-}
-
-Buffer<Corner> sortedCorners(const Mesh& mesh) {
-  const std::size_t quadCorners = 4 * mesh.quads.size();
-  Buffer<Corner> corners(quadCorners + 3 * mesh.triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faceCount(mesh), kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const auto f = face(mesh, i);
-      Corner* out = corners.data() + (f.size() == 4 ? 4 * i : quadCorners + 3 * (i - mesh.quads.size()));
-      for (std::size_t k = 0; k < f.size(); ++k)
-        out[k] = {f[k], f[(k + f.size() - 1) % f.size()], f[(k + 1) % f.size()]};
-    }
-  });
-  tbb::parallel_sort(corners.begin(), corners.end());
-  return corners;
 }
 
 struct FanCounts {
@@ -74,98 +55,26 @@ struct FanCounts {
   }
 };
 
-/// The faces about one vertex. Its neighbours are the nodes and its corners the arcs of a graph; the faces form one fan
-/// exactly if that graph is one cycle or one path.
-class Fan {
- public:
-  explicit Fan(std::span<const Corner> corners) : mCorners(corners) {
-    mSpokes.clear();
-    for (const Corner& c : corners) {
-      mSpokes.push_back({c.previous, false});
-      mSpokes.push_back({c.next, true});
-    }
-    std::sort(mSpokes.begin(), mSpokes.end());
-  }
+/// Counts each edge at its lower end only. A face that names a vertex twice in a row has no edge there.
+void countEdges(const OneRing& ring, std::size_t vertex, FanCounts& counts) {
+  ring.forEachEdge([&](Index neighbour, std::span<const EdgeFace> faces) {
+    if (neighbour <= vertex) return;
+    ++counts.edges;
+    counts.boundary += faces.size() == 1;
+    counts.nonManifold += faces.size() > 2;
+    counts.misoriented += faces.size() == 2 && faces[0].forward == faces[1].forward;
+  });
+}
 
-  /// Counts each edge at its lower end only. A face that names a vertex twice in a row has no edge there.
-  void countEdges(Index vertex, FanCounts& counts) const {
-    forEachSpoke([&](Index neighbour, std::size_t incoming, std::size_t outgoing) {
-      if (neighbour <= vertex) return;
-      const std::size_t faces = incoming + outgoing;
-      ++counts.edges;
-      counts.boundary += faces == 1;
-      counts.nonManifold += faces > 2;
-      counts.misoriented += faces == 2 && incoming != outgoing;
-    });
-  }
-
-  [[nodiscard]] bool isSingle() const {
-    std::size_t nodes = 0, ends = 0;
-    bool branches = false;
-    forEachSpoke([&](Index, std::size_t incoming, std::size_t outgoing) {
-      ++nodes;
-      ends += incoming + outgoing == 1;
-      branches |= incoming + outgoing > 2;
-    });
-    // Without branches each part is a cycle (as many arcs as nodes) or a path (one arc less, two ends).
-    return !branches && ends <= 2 && reachableFromFirst() == nodes;
-  }
-
- private:
-  struct Spoke {
-    Index neighbour;
-    bool outgoing;
-    friend auto operator<=>(const Spoke&, const Spoke&) = default;
-  };
-
-  template <typename Visit>
-  void forEachSpoke(Visit&& visit) const {
-    for (std::size_t i = 0; i < mSpokes.size();) {
-      const Index neighbour = mSpokes[i].neighbour;
-      std::size_t incoming = 0, outgoing = 0;
-      for (; i < mSpokes.size() && mSpokes[i].neighbour == neighbour; ++i)
-        ++(mSpokes[i].outgoing ? outgoing : incoming);
-      visit(neighbour, incoming, outgoing);
-    }
-  }
-
-  [[nodiscard]] std::size_t node(Index neighbour) const {
-    return static_cast<std::size_t>(std::lower_bound(mNodes.begin(), mNodes.end(), neighbour) - mNodes.begin());
-  }
-
-  [[nodiscard]] std::size_t root(std::size_t n) const {
-    while (mParent[n] != n) n = mParent[n] = mParent[mParent[n]];
-    return n;
-  }
-
-  [[nodiscard]] std::size_t reachableFromFirst() const {
-    mNodes.clear();
-    forEachSpoke([&](Index neighbour, std::size_t, std::size_t) { mNodes.push_back(neighbour); });
-    mParent.resize(mNodes.size());
-    for (std::size_t n = 0; n < mParent.size(); ++n) mParent[n] = n;
-    for (const Corner& c : mCorners) mParent[root(node(c.previous))] = root(node(c.next));
-    std::size_t reachable = 0;
-    for (std::size_t n = 0; n < mParent.size(); ++n) reachable += root(n) == root(0);
-    return reachable;
-  }
-
-  std::span<const Corner> mCorners;
-  // One fan is looked at after the other: memory is kept from fan to fan.
-  inline static thread_local std::vector<Spoke> mSpokes;
-  inline static thread_local std::vector<Index> mNodes;
-  inline static thread_local std::vector<std::size_t> mParent;
-};
-
-FanCounts countFans(const Buffer<Corner>& corners) {
-  return sumOver<FanCounts>(corners.size(), [&](std::size_t i, FanCounts& counts) {
-    const Index vertex = corners[i].vertex;
-    if (i > 0 && corners[i - 1].vertex == vertex) return;
-    std::size_t end = i + 1;
-    while (end < corners.size() && corners[end].vertex == vertex) ++end;
-    const Fan fan({corners.data() + i, end - i});
+FanCounts countFans(const Connectivity& connectivity) {
+  tbb::enumerable_thread_specific<OneRing> rings;
+  return sumOver<FanCounts>(connectivity.vertices(), [&](std::size_t v, FanCounts& counts) {
+    if (connectivity.corners(v).empty()) return;
+    OneRing& ring = rings.local();
+    ring.look(connectivity, static_cast<Index>(v));
     ++counts.usedVertices;
-    fan.countEdges(vertex, counts);
-    counts.nonManifoldVertices += !fan.isSingle();
+    countEdges(ring, v, counts);
+    counts.nonManifoldVertices += !ring.isFan();
   });
 }
 
@@ -223,15 +132,14 @@ class VertexSets {
   Buffer<Index> mParent;
 };
 
-std::size_t countComponents(const Mesh& mesh, const Buffer<Corner>& corners) {
+std::size_t countComponents(const Mesh& mesh, const Connectivity& connectivity) {
   VertexSets sets(mesh.positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faceCount(mesh), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       for (const Index v : face(mesh, i)) sets.unite(face(mesh, i)[0], v);
   });
-  return sumOver<std::size_t>(corners.size(), [&](std::size_t i, std::size_t& components) {
-    const bool first = i == 0 || corners[i - 1].vertex != corners[i].vertex;
-    components += first && sets.isRoot(corners[i].vertex);
+  return sumOver<std::size_t>(connectivity.vertices(), [&](std::size_t v, std::size_t& components) {
+    components += !connectivity.corners(v).empty() && sets.isRoot(static_cast<Index>(v));
   });
 }
 
@@ -247,11 +155,10 @@ struct Bounds {
   [[nodiscard]] Box box() const { return lo.x <= hi.x ? Box{lo, hi} : Box{{0, 0, 0}, {0, 0, 0}}; }
 };
 
-Box boundsOf(const Mesh& mesh, const Buffer<Corner>& corners) {
-  const Bounds bounds = sumOver<Bounds>(corners.size(), [&](std::size_t i, Bounds& sum) {
-    if (i > 0 && corners[i - 1].vertex == corners[i].vertex) return;
-    const Vec3f& p = mesh.positions[corners[i].vertex];
-    if (isFinite(p)) sum += {vecCast<double>(p), vecCast<double>(p)};
+Box boundsOf(const Mesh& mesh, const Connectivity& connectivity) {
+  const Bounds bounds = sumOver<Bounds>(connectivity.vertices(), [&](std::size_t v, Bounds& sum) {
+    const Vec3f& p = mesh.positions[v];
+    if (!connectivity.corners(v).empty() && isFinite(p)) sum += {vecCast<double>(p), vecCast<double>(p)};
   });
   return bounds.box();
 }
@@ -293,8 +200,8 @@ MeshReport analyze(const Mesh& mesh) {
       mesh.positions.size(), [&](std::size_t i, std::size_t& count) { count += !isFinite(mesh.positions[i]); });
   countFaces(mesh, report);
 
-  const Buffer<Corner> corners = sortedCorners(mesh);
-  const FanCounts fans = countFans(corners);
+  const Connectivity connectivity(mesh);
+  const FanCounts fans = countFans(connectivity);
   report.edges = fans.edges;
   report.boundaryEdges = fans.boundary;
   report.nonManifoldEdges = fans.nonManifold;
@@ -303,8 +210,8 @@ MeshReport analyze(const Mesh& mesh) {
   report.unusedVertices = report.vertices - fans.usedVertices;
   report.eulerNumber = static_cast<long long>(fans.usedVertices) - static_cast<long long>(fans.edges) +
                        static_cast<long long>(faceCount(mesh));
-  report.components = countComponents(mesh, corners);
-  report.bounds = boundsOf(mesh, corners);
+  report.components = countComponents(mesh, connectivity);
+  report.bounds = boundsOf(mesh, connectivity);
   const Measures measures = measure(mesh, report.bounds.center());
   report.area = measures.area;
   report.volume = measures.volume;
