@@ -15,10 +15,28 @@
 
 namespace pdc::detail {
 
-void checkSizes(const Mesh& mesh, const char* caller) {
+namespace {
+
+/// Whether the first polygon begins at 0 and each one three corners or more before the next one and the end.
+bool areStartsRight(const Polygons& polygons) {
+  const auto& [corners, starts] = polygons;
+  if (starts.empty()) return corners.empty();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::size_t end = i + 1 < starts.size() ? starts[i + 1] : corners.size();
+    if (end < starts[i] || end - starts[i] < 3) return false;
+  }
+  return starts.front() == 0;
+}
+
+}  // namespace
+
+void checkSizes(const Mesh& mesh, const char* caller, FaceKinds faces) {
   const auto refuse = [caller](const std::string& what) {
     throw std::invalid_argument(fmt::format("{}: {}", caller, what));
   };
+  if (!areStartsRight(mesh.polygons)) refuse("polygons must begin at 0 and have three corners at least");
+  if (faces == FaceKinds::kTrianglesAndQuads && !mesh.polygons.empty())
+    refuse(fmt::format("{} polygons, must be triangles and quads; see triangulatePolygons", mesh.polygons.size()));
   const std::size_t vertices = mesh.positions.size();
   if (!mesh.normals.empty() && mesh.normals.size() != vertices)
     refuse(fmt::format("{} normals for {} vertices", mesh.normals.size(), vertices));

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
+#include <tuple>
 
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
@@ -78,23 +80,54 @@ FanCounts countFans(const Connectivity& connectivity) {
   });
 }
 
-/// Faces that name a vertex twice, and faces whose set of vertices was seen before.
+using VertexSet = std::span<Index>;
+
+/// Sorts the vertices of a face and drops repeated ones.
+VertexSet toSet(VertexSet vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices.first(static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin()));
+}
+
+/// A set of up to four vertices, the last one repeated to fill four places: equal for equal sets.
+Quad filled(const VertexSet& set) {
+  Quad quad;
+  std::copy(set.begin(), set.end(), quad.begin());
+  std::fill(quad.begin() + static_cast<std::ptrdiff_t>(set.size()), quad.end(), set.back());
+  return quad;
+}
+
+template <typename Set, typename Less, typename Equal>
+std::size_t countRepeated(Buffer<Set>& sets, Less&& less, Equal&& equal) {
+  tbb::parallel_sort(sets.begin(), sets.end(), less);
+  return sumOver<std::size_t>(
+      sets.size(), [&](std::size_t i, std::size_t& repeated) { repeated += i > 0 && equal(sets[i], sets[i - 1]); });
+}
+
+/// Counts faces that name a vertex twice, and faces whose set of vertices was seen before.
 void countFaces(const Mesh& mesh, MeshReport& report) {
-  // The vertices in increasing order, each once, the last one repeated to fill four places: equal for equal sets.
-  Buffer<Quad> sets(faceCount(mesh));
-  report.degenerateFaces = sumOver<std::size_t>(sets.size(), [&](std::size_t i, std::size_t& degenerate) {
+  Buffer<Quad> small(mesh.quads.size() + mesh.triangles.size());
+  report.degenerateFaces = sumOver<std::size_t>(small.size(), [&](std::size_t i, std::size_t& degenerate) {
     const auto f = face(mesh, i);
-    Quad& set = sets[i];
-    std::copy(f.begin(), f.end(), set.begin());
-    const auto end = set.begin() + static_cast<std::ptrdiff_t>(f.size());
-    std::sort(set.begin(), end);
-    const auto last = std::unique(set.begin(), end);
-    degenerate += last != end;
-    std::fill(last, set.end(), *(last - 1));
+    Quad vertices;
+    std::copy(f.begin(), f.end(), vertices.begin());
+    const VertexSet set = toSet(VertexSet(vertices).first(f.size()));
+    degenerate += set.size() < f.size();
+    small[i] = filled(set);
   });
-  tbb::parallel_sort(sets.begin(), sets.end());
-  report.duplicateFaces = sumOver<std::size_t>(
-      sets.size(), [&](std::size_t i, std::size_t& duplicates) { duplicates += i > 0 && sets[i] == sets[i - 1]; });
+
+  Buffer<Index> corners = mesh.polygons.corners;
+  Buffer<VertexSet> large(mesh.polygons.size());
+  report.degenerateFaces += sumOver<std::size_t>(large.size(), [&](std::size_t i, std::size_t& degenerate) {
+    const std::size_t size = mesh.polygons[i].size();
+    large[i] = toSet({corners.data() + mesh.polygons.starts[i], size});
+    degenerate += large[i].size() < size;
+  });
+  const auto isLarge = [](const VertexSet& set) { return set.size() > std::tuple_size_v<Quad>; };
+  const auto largeEnd = std::partition(large.begin(), large.end(), isLarge);
+  for (auto it = largeEnd; it != large.end(); ++it) small.push_back(filled(*it));
+  large.erase(largeEnd, large.end());
+  report.duplicateFaces = countRepeated(small, std::less<>(), std::equal_to<>()) +
+                          countRepeated(large, std::ranges::lexicographical_compare, std::ranges::equal);
 }
 
 /// Union-find over vertices. Threads link roots by compare-and-swap, always the higher under the lower, so which trees
@@ -190,12 +223,13 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 }  // namespace
 
 MeshReport analyze(const Mesh& mesh) {
-  detail::checkSizes(mesh, "analyze");
+  detail::checkSizes(mesh, "analyze", detail::FaceKinds::kAll);
   detail::checkIndices(mesh);
   MeshReport report;
   report.vertices = mesh.positions.size();
   report.quads = mesh.quads.size();
   report.triangles = mesh.triangles.size();
+  report.polygons = mesh.polygons.size();
   report.nonFiniteVertices = sumOver<std::size_t>(
       mesh.positions.size(), [&](std::size_t i, std::size_t& count) { count += !isFinite(mesh.positions[i]); });
   countFaces(mesh, report);

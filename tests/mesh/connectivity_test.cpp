@@ -73,6 +73,13 @@ TEST(Connectivity, OfASoupIsWhatItsFacesSay) {
   }
 }
 
+TEST(Connectivity, PolygonsAreFacesToo) {
+  Mesh mesh = strip();
+  mesh.polygons.add(std::array<std::uint32_t, 5>{6, 5, 2, 1, 0});
+  const auto connectivity = Connectivity(mesh);
+  EXPECT_TRUE(std::ranges::equal(connectivity.corners(5), (std::vector<Corner>{{1, 2, 4}, {3, 6, 2}})));
+}
+
 TEST(OneRing, NeighboursShareAnEdgeNotOnlyAFace) {
   const Connectivity connectivity(strip());
   EXPECT_EQ(neighboursOf(connectivity, 1), (std::vector<std::uint32_t>{0, 2, 4}));

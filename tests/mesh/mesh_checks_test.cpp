@@ -108,6 +108,27 @@ TEST(MeshChecks, EveryFunctionRefusesArraysThatDoNotFit) {
   }
 }
 
+TEST(MeshChecks, PolygonsAreRefusedWhereOnlyTrianglesAndQuadsAreKnown) {
+  Mesh mesh = triangle();
+  mesh.polygons.add(std::array<std::uint32_t, 5>{0, 1, 2, 1, 2});
+  for (const auto& [name, call] : kCalls) {
+    const std::string caller = name;
+    if (caller == "analyze" || caller == "writeMesh") continue;
+    try {
+      call(mesh);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(), caller + ": 1 polygons, must be triangles and quads; see triangulatePolygons");
+    }
+  }
+}
+
+TEST(MeshChecks, IndicesOfPolygonsAreLookedAt) {
+  Mesh mesh = triangle();
+  mesh.polygons.add(std::array<std::uint32_t, 5>{0, 1, 2, 1, 3});
+  EXPECT_THROW(detail::checkIndices(mesh), Error);
+}
+
 TEST(MeshChecks, EveryFunctionNamesFacesOfMissingVertices) {
   Mesh mesh = triangle();
   mesh.triangles[0][1] = 3;

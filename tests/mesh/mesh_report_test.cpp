@@ -200,6 +200,55 @@ TEST(MeshReport, DegenerateFaces) {
   EXPECT_DOUBLE_EQ(r.area, 1);
 }
 
+/// The cube's faces with the middle of each edge as a corner more.
+Mesh cubeOfOctagons() {
+  const Mesh plain = cube();
+  Mesh mesh;
+  mesh.positions = plain.positions;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  for (const Quad& q : plain.quads) {
+    std::vector<std::uint32_t> octagon;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t a = q[k], b = q[(k + 1) % 4];
+      const auto [it, isNew] =
+          middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.positions.size()));
+      if (isNew) mesh.positions.push_back((mesh.positions[a] + mesh.positions[b]) * 0.5F);
+      octagon.insert(octagon.end(), {a, it->second});
+    }
+    mesh.polygons.add(octagon);
+  }
+  return mesh;
+}
+
+TEST(MeshReport, CubeOfPolygons) {
+  const MeshReport r = analyze(cubeOfOctagons());
+  expectClosedManifold(r);
+  EXPECT_EQ(r.vertices, 20u);
+  EXPECT_EQ(r.quads + r.triangles, 0u);
+  EXPECT_EQ(r.polygons, 6u);
+  EXPECT_EQ(r.edges, 24u);
+  EXPECT_EQ(r.components, 1u);
+  EXPECT_EQ(r.eulerNumber, 2);
+  EXPECT_DOUBLE_EQ(r.area, 24);
+  EXPECT_DOUBLE_EQ(r.volume, 8);
+}
+
+TEST(MeshReport, FaultsOfPolygons) {
+  Mesh mesh;
+  mesh.positions.assign(6, Vec3f{0, 0, 0});
+  mesh.quads = {{0, 1, 2, 3}};
+  const auto add = [&](std::initializer_list<std::uint32_t> polygon) { mesh.polygons.add(std::vector(polygon)); };
+  add({0, 1, 2, 3, 4});
+  add({4, 3, 2, 1, 0});
+  EXPECT_EQ(analyze(mesh).duplicateFaces, 1u);
+  add({0, 1, 2, 3, 5});
+  EXPECT_EQ(analyze(mesh).duplicateFaces, 1u);
+  EXPECT_EQ(analyze(mesh).degenerateFaces, 0u);
+  add({3, 2, 1, 0, 1});
+  EXPECT_EQ(analyze(mesh).duplicateFaces, 2u) << "of the quad";
+  EXPECT_EQ(analyze(mesh).degenerateFaces, 1u);
+}
+
 TEST(MeshReport, TwoComponents) {
   Mesh mesh = cube();
   append(mesh, tetrahedron());

@@ -7,10 +7,10 @@
 
 namespace pdc {
 
-/// Plain facts about a mesh taken as a soup of indexed faces. Quads count as one face with four edges for topology and
-/// as their two triangles (see Mesh) for area and volume.
+/// Plain facts about a mesh taken as a soup of indexed faces. Quads and polygons count as one face with as many edges
+/// as corners for topology, and as fans of triangles from their first corner for area and volume.
 struct MeshReport {
-  std::size_t vertices = 0, quads = 0, triangles = 0;
+  std::size_t vertices = 0, quads = 0, triangles = 0, polygons = 0;
   std::size_t edges = 0;
   std::size_t boundaryEdges = 0;        ///< Edges with one face.
   std::size_t nonManifoldEdges = 0;     ///< Edges with more than two faces.

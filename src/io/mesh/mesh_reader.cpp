@@ -10,6 +10,7 @@
 #include "io/mesh/off_reader.h"
 #include "io/mesh/ply_reader.h"
 #include "io/mesh/stl_reader.h"
+#include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc {
 namespace {
@@ -30,11 +31,13 @@ Mesh parse(detail::MeshFormat format, std::string_view bytes) {
 
 }  // namespace
 
-Mesh readMesh(const std::filesystem::path& path) {
+Mesh readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
   const detail::MeshFormat format = detail::meshFormat(path);
   try {
     const Buffer<char> bytes = detail::readFile(path);
-    return parse(format, {bytes.data(), bytes.size()});
+    Mesh mesh = parse(format, {bytes.data(), bytes.size()});
+    if (!options.keepPolygons) triangulatePolygons(mesh);
+    return mesh;
   } catch (const Error& error) {
     throw detail::fileError(path, error.what());
   } catch (const std::bad_alloc&) {

@@ -15,7 +15,7 @@ void checkMeshPath(const std::filesystem::path& path) {
 }
 
 std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options) {
-  detail::checkSizes(mesh, "writeMesh");
+  detail::checkSizes(mesh, "writeMesh", detail::FaceKinds::kAll);
   const detail::MeshFormat format = detail::meshFormat(path);
   detail::checkIndices(mesh);
   detail::AtomicFile file(path);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -13,7 +14,9 @@
 #include "io/file/atomic_file.h"
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
+#include "io/mesh/corner_count.h"
 #include "io/mesh/ply_columns.h"
+#include "mesh/faces.h"
 
 namespace pdc::detail {
 namespace {
@@ -24,6 +27,13 @@ static_assert(sizeof(Vec3f) == 12 && sizeof(Quad) == 16 && sizeof(Triangle) == 1
 /// About a megabyte of output per chunk: large enough for the system calls, small enough for the caches.
 constexpr std::size_t kItemsPerChunk = 1 << 15;
 
+/// Whether a byte holds the number of corners of every polygon.
+bool areCountsBytes(const Polygons& polygons) {
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    if (polygons[i].size() > std::numeric_limits<std::uint8_t>::max()) return false;
+  return true;
+}
+
 std::string header(const Mesh& mesh, bool ascii) {
   std::string properties;
   for (const VertexProperty& property : mesh.properties)
@@ -32,10 +42,10 @@ std::string header(const Mesh& mesh, bool ascii) {
   return fmt::format(
       "ply\nformat {} 1.0\ncomment pdc\n"
       "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}{}"
-      "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
+      "element face {}\nproperty list {} {} vertex_indices\nend_header\n",
       ascii ? "ascii" : "binary_little_endian", mesh.positions.size(),
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties,
-      mesh.quads.size() + mesh.triangles.size(), plyIndexType(mesh.positions.size()));
+      faceCount(mesh), areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(mesh.positions.size()));
 }
 
 /// An array with `stride` bytes for each vertex.
@@ -94,17 +104,30 @@ void writeVertices(const Mesh& mesh, AtomicFile& file) {
   });
 }
 
-template <typename Face>
-void writeFaces(const Buffer<Face>& faces, AtomicFile& file) {
+/// \tparam Count the type of a face's number of corners.
+template <typename Count, typename Face>
+char* putFace(const Face& face, char* to) {
+  const auto count = static_cast<Count>(face.size());
+  const std::size_t bytes = face.size() * sizeof(std::uint32_t);
+  std::memcpy(to, &count, sizeof(Count));
+  std::memcpy(to + sizeof(Count), face.data(), bytes);
+  return to + sizeof(Count) + bytes;
+}
+
+template <typename Count, typename Faces>
+void writeFaces(const Faces& faces, AtomicFile& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
-    constexpr std::size_t kStride = 1 + sizeof(Face);
-    out.resize((end - begin) * kStride);
+    out.resize((end - begin) * sizeof(Count) + cornerCount(faces, begin, end) * sizeof(std::uint32_t));
     char* next = out.data();
-    for (std::size_t i = begin; i < end; ++i, next += kStride) {
-      *next = static_cast<char>(faces[i].size());
-      std::memcpy(next + 1, faces[i].data(), sizeof(Face));
-    }
+    for (std::size_t i = begin; i < end; ++i) next = putFace<Count>(faces[i], next);
   });
+}
+
+template <typename Count>
+void writeAllFaces(const Mesh& mesh, AtomicFile& file) {
+  writeFaces<Count>(mesh.quads, file);
+  writeFaces<Count>(mesh.triangles, file);
+  writeFaces<Count>(mesh.polygons, file);
 }
 
 void putVector(TextCursor& text, const Vec3f& v) {
@@ -145,10 +168,10 @@ void writeVerticesAscii(const Mesh& mesh, AtomicFile& file) {
   });
 }
 
-template <typename Face>
-void writeFacesAscii(const Buffer<Face>& faces, AtomicFile& file) {
+template <typename Faces>
+void writeFacesAscii(const Faces& faces, AtomicFile& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
-    TextCursor text(out, (end - begin) * (1 + std::tuple_size_v<Face>)*TextCursor::kMaxNumber);
+    TextCursor text(out, (end - begin + cornerCount(faces, begin, end)) * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
       text.put(faces[i].size());
       for (const std::uint32_t v : faces[i]) {
@@ -176,10 +199,14 @@ void writePly(const Mesh& mesh, AtomicFile& file, bool ascii) {
     writeVerticesAscii(mesh, file);
     writeFacesAscii(mesh.quads, file);
     writeFacesAscii(mesh.triangles, file);
+    writeFacesAscii(mesh.polygons, file);
+    return;
+  }
+  writeVertices(mesh, file);
+  if (areCountsBytes(mesh.polygons)) {
+    writeAllFaces<std::uint8_t>(mesh, file);
   } else {
-    writeVertices(mesh, file);
-    writeFaces(mesh.quads, file);
-    writeFaces(mesh.triangles, file);
+    writeAllFaces<std::uint32_t>(mesh, file);
   }
 }
 

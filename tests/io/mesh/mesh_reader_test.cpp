@@ -238,6 +238,25 @@ TEST(ReadMesh, ObjWithAllItsWaysToNameACorner) {
   EXPECT_TRUE(mesh.normals.empty()) << "normals that are not the vertices' own";
 }
 
+TEST(ReadMesh, FacesOfManyCornersBecomeFansAfterTheOthersUnlessTheyAreKept) {
+  const TemporaryFolder folder;
+  writeContents(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\nf 1 2 5\nf 2 3 4 5\n");
+  writeContents(folder / "a.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n3 0 1 4\n4 1 2 3 4\n");
+  writeContents(folder / "a.ply",
+                "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n3 0 1 4\n4 1 2 3 4\n");
+  for (const char* name : {"a.obj", "a.off", "a.ply"}) {
+    const Mesh fans = readMesh(folder / name);
+    EXPECT_EQ(fans.triangles, (Buffer<Triangle>{{0, 1, 4}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}})) << name;
+    EXPECT_TRUE(fans.polygons.empty()) << name;
+    const Mesh kept = readMesh(folder / name, {.keepPolygons = true});
+    EXPECT_EQ(kept.triangles, (Buffer<Triangle>{{0, 1, 4}})) << name;
+    EXPECT_EQ(kept.polygons, (Polygons{.corners = {0, 1, 2, 3, 4}, .starts = {0}})) << name;
+    for (const Mesh& mesh : {fans, kept}) EXPECT_EQ(mesh.quads, (Buffer<Quad>{{1, 2, 3, 4}})) << name;
+  }
+}
+
 TEST(ReadMesh, OffWithCommentsColoursAndNormals) {
   const std::string faces = "4 0 1 2 3 255 0 0\n3 0 1 2\n";
   const Mesh plain = readText("a.off", "OFF # kind\n# counts\n4 2 0\n\n0 0 0\n1 0 0\n1 1 0 # third\n0 1 0\n" + faces);

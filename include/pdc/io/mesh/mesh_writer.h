@@ -17,8 +17,9 @@ void checkMeshPath(const std::filesystem::path& path);
 
 /// Writes by suffix: .ply (binary little-endian unless ascii; float x y z, float nx ny nz if the mesh has normals, and
 /// its properties in their order and types, vectors as NAME_x NAME_y NAME_z NAME_w; int or, above 2^31 vertices, uint
-/// indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off through OpenMesh
-/// (.stl as triangles). Only .ply holds properties; the others leave them out.
+/// indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off through OpenMesh.
+/// Quads come before triangles, and those before polygons; in .stl all are triangles. Only .ply holds properties; the
+/// others leave them out.
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed and whatever stood under the name stays.
