@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <tuple>
 
@@ -176,24 +175,21 @@ std::size_t countComponents(const Mesh& mesh, const Connectivity& connectivity) 
   });
 }
 
-struct Bounds {
-  Vec3d lo{kMax, kMax, kMax}, hi{-kMax, -kMax, -kMax};
-  static constexpr double kMax = std::numeric_limits<double>::max();
-
-  Bounds& operator+=(const Bounds& o) {
-    lo = {std::min(lo.x, o.lo.x), std::min(lo.y, o.lo.y), std::min(lo.z, o.lo.z)};
-    hi = {std::max(hi.x, o.hi.x), std::max(hi.y, o.hi.y), std::max(hi.z, o.hi.z)};
-    return *this;
-  }
-  [[nodiscard]] Box box() const { return lo.x <= hi.x ? Box{lo, hi} : Box{{0, 0, 0}, {0, 0, 0}}; }
-};
-
 Box boundsOf(const Mesh& mesh, const Connectivity& connectivity) {
-  const Bounds bounds = sumOver<Bounds>(connectivity.vertices(), [&](std::size_t v, Bounds& sum) {
-    const Vec3f& p = mesh.positions[v];
-    if (!connectivity.corners(v).empty() && isFinite(p)) sum += {vecCast<double>(p), vecCast<double>(p)};
-  });
-  return bounds.box();
+  const Box bounds = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, connectivity.vertices(), kGrain), Box::empty(),
+      [&](const tbb::blocked_range<std::size_t>& range, Box box) {
+        for (std::size_t v = range.begin(); v != range.end(); ++v) {
+          const Vec3f& p = mesh.positions[v];
+          if (!connectivity.corners(v).empty() && isFinite(p)) box.include(vecCast<double>(p));
+        }
+        return box;
+      },
+      [](Box a, const Box& b) {
+        a.include(b);
+        return a;
+      });
+  return bounds.isEmpty() ? Box{} : bounds;
 }
 
 struct Measures {

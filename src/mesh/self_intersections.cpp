@@ -75,7 +75,7 @@ struct Leaf {
   std::span<const std::uint32_t> numbers;
   std::array<Triangle, TriangleTree::kLeaf> vertices;
   std::array<detail::TriangleCorners, TriangleTree::kLeaf> corners;
-  std::array<detail::BoxF, TriangleTree::kLeaf> boxes;
+  std::array<BoxF, TriangleTree::kLeaf> boxes;
 
   Leaf(const Mesh& mesh, std::span<const std::uint32_t> triangles) : numbers(triangles) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {

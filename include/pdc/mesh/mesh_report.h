@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "pdc/math/interval.h"
+#include "pdc/math/box.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc {
