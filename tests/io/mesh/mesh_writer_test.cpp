@@ -13,8 +13,6 @@
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "io/file/temporary_folder.h"
@@ -138,78 +136,6 @@ TEST(WriteMesh, TextPlyByteForByte) {
             "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
             "0 0 0 0 0 1\n1 0 0 0 0 1\n1 1.5 0 0 0 1\n0 1 0 0 0 1\n0.1 -0 1e-20 0 0 1\n"
             "4 0 1 2 3\n3 1 0 4\n");
-}
-
-TEST(WriteMesh, PlyWithPropertiesByteForByte) {
-  const TemporaryFolder folder;
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}};
-  mesh.properties = {{"confidence", 1, Buffer<float>{0.5F, 1}},
-                     {"rank", 1, Buffer<std::uint8_t>{1, 255}},
-                     {"t", 2, Buffer<std::int8_t>{-1, 2, 3, -128}},
-                     {"d", 1, Buffer<double>{-2.2250738585072014e-308, 0.1}}};
-  const std::string properties =
-      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float confidence\n"
-      "property uchar rank\nproperty char t_x\nproperty char t_y\nproperty double d\n"
-      "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
-  writeMesh(mesh, folder / "text.ply", {.ascii = true});
-  EXPECT_EQ(contentsOf(folder / "text.ply"), "ply\nformat ascii 1.0\ncomment pdc\n" + properties +
-                                                 "0 0 0 0.5 1 -1 2 -2.2250738585072014e-308\n1 0 0 1 255 3 -128 0.1\n");
-  writeMesh(mesh, folder / "binary.ply");
-  std::string expected = "ply\nformat binary_little_endian 1.0\ncomment pdc\n" + properties;
-  const auto append = [&](const auto&... values) {
-    (expected.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...);
-  };
-  append(Vec3f{0, 0, 0}, 0.5F, std::uint8_t{1}, std::int8_t{-1}, std::int8_t{2}, -2.2250738585072014e-308);
-  append(Vec3f{1, 0, 0}, 1.0F, std::uint8_t{255}, std::int8_t{3}, std::int8_t{-128}, 0.1);
-  EXPECT_EQ(contentsOf(folder / "binary.ply"), expected);
-}
-
-template <typename Number>
-VertexProperty randomProperty(const std::string& name, int components, std::size_t vertices) {
-  std::mt19937 random(54321);
-  Buffer<Number> values(vertices * static_cast<std::size_t>(components));
-  for (Number& value : values) {
-    if constexpr (std::is_integral_v<Number>) {
-      value = static_cast<Number>(random());
-    } else {
-      value = static_cast<Number>(anyFloat(random)) / Number{3};
-    }
-  }
-  return {name, components, std::move(values)};
-}
-
-TEST(WriteMesh, PropertiesOfVerticesComeBack) {
-  const TemporaryFolder folder;
-  Mesh mesh = randomMesh(17, 9, true);
-  const std::size_t vertices = mesh.positions.size();
-  mesh.properties = {
-      randomProperty<std::int8_t>("a", 4, vertices),      randomProperty<std::uint8_t>("b", 1, vertices),
-      randomProperty<std::int16_t>("c", 3, vertices),     randomProperty<std::uint16_t>("d", 2, vertices),
-      randomProperty<std::int32_t>("e", 1, vertices),     randomProperty<std::uint32_t>("f", 4, vertices),
-      randomProperty<float>("g:\xC3\xA4/1", 3, vertices), randomProperty<double>("h", 1, vertices)};
-  for (const bool ascii : {false, true}) {
-    const auto path = folder / (ascii ? "text.ply" : "binary.ply");
-    writeMesh(mesh, path, {.ascii = ascii});
-    const Mesh read = readMesh(path);
-    expectSameBits(read.positions, mesh.positions);
-    expectSameBits(read.normals, mesh.normals);
-    EXPECT_EQ(read.quads, mesh.quads);
-    EXPECT_EQ(read.properties, mesh.properties);
-  }
-}
-
-TEST(WriteMesh, NamesThatAPlyFileCannotHoldAreRefused) {
-  const TemporaryFolder folder;
-  const auto refused = [&](std::vector<VertexProperty> properties) {
-    Mesh mesh;
-    mesh.properties = std::move(properties);
-    EXPECT_THROW(writeMesh(mesh, folder / "a.ply"), std::invalid_argument) << mesh.properties.back().name;
-    EXPECT_NO_THROW(writeMesh(mesh, folder / "a.obj")) << "which leaves properties out";
-  };
-  for (const char* name : {"two words", "a\nend_header", "x", "nz"}) refused({{name, 1, Buffer<float>{}}});
-  refused({{"v_y", 1, Buffer<float>{}}, {"v", 2, Buffer<float>{}}});
-  EXPECT_EQ(folder.entries(), 1u);
 }
 
 TEST(WriteMesh, ObjByteForByte) {
