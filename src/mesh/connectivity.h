@@ -34,7 +34,7 @@ class Connectivity {
   }
 
  private:
-  Buffer<std::size_t> mFirst;  ///< For each vertex; two more at the end.
+  Buffer<std::size_t> mFirst;  ///< Where the corners of each vertex begin; two entries more at the end.
   Buffer<Corner> mCorners;
 };
 
@@ -76,7 +76,7 @@ class OneRing {
   std::span<const Corner> mCorners;
   std::vector<Spoke> mSpokes;
   std::vector<std::uint32_t> mNeighbours;  ///< Ascending.
-  std::vector<std::size_t> mFirst;         ///< For each neighbour, and one more, where its faces begin.
+  std::vector<std::size_t> mFirst;         ///< Where the faces of each neighbour begin, and one entry more.
   std::vector<EdgeFace> mFaces;
   mutable std::vector<std::size_t> mParent;  ///< Kept for its memory.
 };
@@ -93,7 +93,7 @@ class EdgeTable {
   [[nodiscard]] std::size_t size() const { return mVertices.size(); }
   /// The two ends, the lower first.
   [[nodiscard]] const std::array<std::uint32_t, 2>& vertices(std::size_t edge) const { return mVertices[edge]; }
-  /// As OneRing has them for the lower end.
+  /// The faces at it in the order of OneRing at the lower end.
   [[nodiscard]] std::span<const EdgeFace> faces(std::size_t edge) const {
     return {mFaces.data() + mFirstFace[edge], mFaces.data() + mFirstFace[edge + 1]};
   }
@@ -103,8 +103,8 @@ class EdgeTable {
 
  private:
   Buffer<std::array<std::uint32_t, 2>> mVertices;
-  Buffer<std::size_t> mFirstEdge;  ///< For each vertex, and one more.
-  Buffer<std::size_t> mFirstFace;  ///< For each edge, and one more.
+  Buffer<std::size_t> mFirstEdge;  ///< The first edge of each vertex, and one entry more.
+  Buffer<std::size_t> mFirstFace;  ///< Where the faces of each edge begin, and one entry more.
   Buffer<EdgeFace> mFaces;
 };
 

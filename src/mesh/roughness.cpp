@@ -26,7 +26,7 @@ std::vector<Vec3d> vertexNormals(const Mesh& mesh) {
   forEachNormal(mesh, [&](const Triangle& t, const Vec3d& n) {
     for (const std::uint32_t v : t) normals[v] += n;
   });
-  for (Vec3d& n : normals) n *= 1 / length(n);  // Not finite where there is none.
+  for (Vec3d& n : normals) n *= 1 / length(n);  // A vertex without one gets NaN.
   return normals;
 }
 

@@ -29,7 +29,7 @@ constexpr int kCurveBits = 19;  // per axis
 constexpr int kClassShift = 3 * kCurveBits;
 constexpr int kLastClass = (1 << (64 - kClassShift)) - 1;
 
-/// With two zero bits between each and the next of the low 21 bits.
+/// Puts two zero bits between each and the next of the low 21 bits.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;

@@ -23,7 +23,7 @@ class TriangleTree {
  public:
   static constexpr std::size_t kLeaf = 4, kFan = 4;
 
-  /// Over the triangles with these numbers (see faces.h), all of them finite. Runs in parallel; the tree depends only
+  /// Sorts the triangles with these numbers (see faces.h), all of them finite. Runs in parallel; the tree depends only
   /// on the mesh and the numbers.
   TriangleTree(const Mesh& mesh, Buffer<std::uint32_t> triangles);
 

@@ -24,11 +24,11 @@ struct MeshReport {
   long long eulerNumber = 0;          ///< V - E + F, unused vertices left out.
   double area = 0;                    ///< World units squared.
   double volume = 0;                  ///< Signed, by the divergence theorem; positive if faces point outwards.
-  Box bounds{};                       ///< Of the used vertices; zero if there are none.
+  Box bounds{};                       ///< The box of the used vertices that are finite; zero if there are none.
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
-/// does not exist.
+/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says.
 [[nodiscard]] MeshReport analyze(const Mesh& mesh);
 
 }  // namespace pdc

@@ -11,7 +11,7 @@
 namespace pdc::detail {
 namespace {
 
-/// About a megabyte of text per chunk.
+/// A chunk is about a megabyte of text.
 constexpr std::size_t kItemsPerChunk = 1 << 15;
 
 void writeVectors(const Buffer<Vec3f>& vectors, bool normals, AtomicFile& file) {

@@ -23,7 +23,7 @@ struct PlyColumns {
   static constexpr std::size_t kNoProperty = std::numeric_limits<std::size_t>::max();
 
   std::vector<VertexProperty> properties;  ///< Without values.
-  std::vector<std::size_t> propertyOf;     ///< For each column its place in `properties`, or kNoProperty.
+  std::vector<std::size_t> propertyOf;     ///< The place of each column's in `properties`, or kNoProperty.
 };
 
 /// Consecutive columns of one type that are named as plyColumnNames names those of a vector become one, unless its name

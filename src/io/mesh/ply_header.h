@@ -9,7 +9,7 @@ namespace pdc::detail {
 
 enum class PlyType { kNone, kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
-/// As headers call it: "char", "uchar", "short", "ushort", "int", "uint", "float", "double"; "" for kNone.
+/// What headers call it: "char", "uchar", "short", "ushort", "int", "uint", "float", "double"; "" for kNone.
 [[nodiscard]] const char* plyTypeName(PlyType type);
 [[nodiscard]] bool plyIsReal(PlyType type);
 

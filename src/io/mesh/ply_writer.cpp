@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary PLY is written as it lies in memory");
 static_assert(sizeof(Vec3f) == 12 && sizeof(Quad) == 16 && sizeof(Triangle) == 12);
 
-/// About a megabyte of output per chunk: large enough for the system calls, small enough for the caches.
+/// A chunk is about a megabyte: large enough for the system calls, small enough for the caches.
 constexpr std::size_t kItemsPerChunk = 1 << 15;
 
 /// Whether a byte holds the number of corners of every polygon.
