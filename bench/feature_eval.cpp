@@ -109,9 +109,9 @@ Outcome evaluate(const Case& c, const Pose& pose, unsigned seed, const Request& 
   }
   outcome.milliseconds = std::chrono::duration<double, std::milli>(start() - begin).count();
   outcome.figures = measure(mesh, c.shape, pose, c.input == "graded" ? Part::kHalves : Part::kAll);
-  if (!mesh.confidence.empty()) {
+  if (const auto confidence = mesh.values<float>("confidence"); !confidence.empty()) {
     std::vector<double> doubt;
-    for (const float v : mesh.confidence) doubt.push_back(-v);
+    for (const float v : confidence) doubt.push_back(-v);
     outcome.correlation = rankCorrelation(doubt, vertexErrors(mesh, c.shape, pose));
   }
   return outcome;

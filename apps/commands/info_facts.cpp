@@ -68,6 +68,15 @@ Json sceneFacts(const std::filesystem::path& path) {
   return facts;
 }
 
+Json meshFileFacts(const std::filesystem::path& path) {
+  const Mesh mesh = readMesh(path);
+  Json facts = meshFacts(analyze(mesh));
+  for (const VertexProperty& property : mesh.properties)
+    facts["properties"].push_back(
+        {{"name", property.name}, {"type", typeName(property)}, {"components", property.components}});
+  return facts;
+}
+
 Json factsByKind(const std::filesystem::path& path) {
   switch (inputKind(path)) {
     case InputKind::kGrid:
@@ -75,7 +84,7 @@ Json factsByKind(const std::filesystem::path& path) {
     case InputKind::kScene:
       return sceneFacts(path);
     default:
-      return meshFacts(analyze(readMesh(path)));
+      return meshFileFacts(path);
   }
 }
 

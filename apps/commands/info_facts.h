@@ -7,11 +7,12 @@
 
 namespace pdc {
 
-/// What `pdc info` says about a file: the grids of a .vdb, the box and lattice of a scene, or the report on a mesh.
+/// What `pdc info` says about a file: the grids of a .vdb, the box and lattice of a scene, or the report on a mesh
+/// and the properties of its vertices.
 /// \throws Error for files that cannot be read.
 [[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
 
-/// The part of it about a mesh.
+/// What the report on a mesh says.
 [[nodiscard]] nlohmann::ordered_json meshFacts(const MeshReport& report);
 
 }  // namespace pdc

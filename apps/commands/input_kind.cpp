@@ -2,13 +2,12 @@
 
 #include <string>
 
+#include "io/file/suffix.h"
+
 namespace pdc {
 
 InputKind inputKind(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  for (char& c : suffix) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string suffix = detail::suffixOf(path);
   if (suffix == ".vdb") return InputKind::kGrid;
   if (suffix == ".yaml" || suffix == ".yml") return InputKind::kScene;
   return InputKind::kOther;

@@ -4,7 +4,7 @@
 
 namespace pdc {
 
-/// What a file holds, by its suffix: .vdb, .yaml or .yml, and anything else.
+/// What a file holds, by its suffix in any case: .vdb, .yaml or .yml, and anything else.
 enum class InputKind { kGrid, kScene, kOther };
 
 [[nodiscard]] InputKind inputKind(const std::filesystem::path& path);

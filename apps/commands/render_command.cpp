@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "commands/shading_values.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/png_writer.h"
-#include "pdc/mesh/distance.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
@@ -33,26 +32,10 @@ void parseSize(const std::string& text, RenderRequest& request) {
   request.height = static_cast<int>(size[1]);
 }
 
-/// What the colours show: a property of the vertices, or their distance to the reference.
-Buffer<float> valuesOf(const RenderRequest& request, const Mesh& mesh, const Monitor& monitor) {
-  if (!request.reference.empty()) {
-    const Mesh reference = readMesh(request.reference);
-    Buffer<float> values;
-    for (const double d : distances(mesh.positions, reference, monitor)) values.push_back(static_cast<float>(d));
-    return values;
-  }
-  auto values = readVertexProperty(request.mesh, request.shading);
-  if (!values)
-    throw Error(fmt::format("{}: its vertices have no property \"{}\"{}", request.mesh.string(), request.shading,
-                            request.shading == "error" ? "; give one, or a --reference" : ""));
-  return *values;
-}
-
-float largest(const Buffer<float>& values) {
-  float most = 0;
-  for (const float v : values)
-    if (std::isfinite(v)) most = std::max(most, v);
-  return most;
+/// \returns what is wrong with --shading; empty if nothing is.
+std::string checkShading(const std::string& shading) {
+  if (shading == "clay" || shading == "normal" || isValueShading(shading)) return "";
+  return fmt::format("'{}' is not clay, normal, confidence, error or property:NAME", shading);
 }
 
 Image draw(const RenderRequest& request, std::string& scale) {
@@ -71,14 +54,14 @@ Image draw(const RenderRequest& request, std::string& scale) {
                         .towardsViewer = request.towardsViewer,
                         .shading = request.shading == "normal" ? Shading::kNormal : Shading::kClay,
                         .edges = request.edges};
-  Buffer<float> values;
-  if (request.shading == "confidence" || request.shading == "error") {
-    values = valuesOf(request, mesh, monitor);
+  ShadingValues shown;
+  if (isValueShading(request.shading)) {
+    shown = shadingValues(request, mesh, monitor);
     options.shading = Shading::kValues;
-    options.values = values;
-    const bool share = request.shading == "confidence";
-    options.valueHi = request.range ? static_cast<float>(*request.range) : share ? 1 : largest(values);
-    scale = fmt::format("; {} from 0, blue, to {:.6g}, yellow", request.shading, options.valueHi);
+    options.values = shown.values;
+    options.valueLo = shown.lo;
+    options.valueHi = request.range ? static_cast<float>(*request.range) : shown.hi;
+    scale = fmt::format("; {} from {:.6g}, blue, to {:.6g}, yellow", shown.name, options.valueLo, options.valueHi);
   }
   return render(mesh, options, monitor);
 }
@@ -96,14 +79,15 @@ void addRenderOptions(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--shading", request.shading,
                   "Colours (clay): of a matt solid, of the normal's direction,\n"
-                  "of the vertices' property \"confidence\", or of \"error\"")
+                  "of the vertices' property \"confidence\", of \"error\", or,\n"
+                  "as property:NAME, of any other property")
       ->type_name("WHAT")
-      ->check(CLI::IsMember({"normal", "clay", "confidence", "error"}));
+      ->check(checkShading);
   command.add_option("--reference", request.reference, "For --shading error: the error is the distance to this mesh")
       ->type_name("MESH");
   addReal(
       command, "--range", request.range, [](double v) { return v > 0 && std::isfinite(v); }, "a finite number > 0",
-      "The value that is yellow (confidence: 1, error: the largest)")
+      "The value that is yellow (confidence: 1, others: the largest)")
       ->type_name("V");
   command.add_flag("--edges", request.edges, "The mesh's edges over it");
   command.add_flag("--quiet", request.quiet, "No summary and no progress bar");

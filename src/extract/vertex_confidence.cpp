@@ -184,6 +184,23 @@ std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
   return sum;
 }
 
+Buffer<float> confidenceOf(const Mesh& mesh, const Buffer<Rating>& ratings, double voxelSize) {
+  const std::vector<double> height = heights(mesh, ratings);
+  Buffer<float> confidence(ratings.size());
+  for (std::size_t i = 0; i < ratings.size(); ++i) {
+    const double seen = ratings[i].onCrease ? 0 : height[i] / voxelSize;
+    const double deviation = std::hypot(seen, std::sqrt(double{ratings[i].variance}));
+    confidence[i] = static_cast<float>(1 / (1 + deviation / kHalfConfidence));
+  }
+  return confidence;
+}
+
+Buffer<std::uint8_t> ranksOf(const Buffer<Rating>& ratings) {
+  Buffer<std::uint8_t> ranks(ratings.size());
+  for (std::size_t i = 0; i < ratings.size(); ++i) ranks[i] = ratings[i].rank;
+  return ranks;
+}
+
 }  // namespace
 
 void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
@@ -200,19 +217,9 @@ void addVertexConfidence(const Surface& surface, double normalNoise, const Conto
     progress.advance(range.size());
   });
   rateAdded(mesh, topology.vertexCount, ratings);
-  if (options.ranks) {
-    mesh.ranks.resize(ratings.size());
-    for (std::size_t i = 0; i < ratings.size(); ++i) mesh.ranks[i] = ratings[i].rank;
-  }
-  if (!options.confidence) return;
-  const std::vector<double> height = heights(mesh, ratings);
-  const double unit = source.map().voxelSize();
-  mesh.confidence.resize(ratings.size());
-  for (std::size_t i = 0; i < ratings.size(); ++i) {
-    const double seen = ratings[i].onCrease ? 0 : height[i] / unit;
-    const double deviation = std::hypot(seen, std::sqrt(double{ratings[i].variance}));
-    mesh.confidence[i] = static_cast<float>(1 / (1 + deviation / kHalfConfidence));
-  }
+  if (options.confidence)
+    mesh.properties.push_back({"confidence", 1, confidenceOf(mesh, ratings, source.map().voxelSize())});
+  if (options.ranks) mesh.properties.push_back({"rank", 1, ranksOf(ratings)});
 }
 
 }  // namespace pdc::detail

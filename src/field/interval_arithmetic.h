@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pdc/math/box.h"
 #include "pdc/math/interval.h"
 
 /// The interval arithmetic that bounds of fields are made of. Nothing here rounds outwards: a bound ends with

@@ -8,6 +8,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/file_error.h"
+#include "io/file/suffix.h"
 
 namespace pdc {
 std::vector<std::uint8_t> encodePng(const Image& image) {
@@ -33,7 +34,7 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
 }
 
 void checkPngPath(const std::filesystem::path& path) {
-  if (path.extension() != ".png") throw detail::fileError(path, "a picture's suffix must be .png");
+  if (detail::suffixOf(path) != ".png") throw detail::fileError(path, "a picture's suffix must be .png");
   detail::checkWritable(path);
 }
 

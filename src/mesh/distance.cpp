@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 #include "mesh/triangle_tree.h"
 #include "pdc/error.h"
 
@@ -49,6 +50,7 @@ Buffer<std::uint32_t> finiteTriangles(const Mesh& mesh) {
 }  // namespace
 
 Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const Monitor& monitor) {
+  detail::checkSizes(mesh, "distances");
   detail::checkIndices(mesh);
   Buffer<std::uint32_t> triangles = finiteTriangles(mesh);
   if (triangles.empty()) throw Error("no distance: the mesh has no face with finite corners");

@@ -10,19 +10,20 @@
 
 namespace pdc::detail {
 
-// All faces of a mesh under one number: the quads first, then the triangles.
+// All faces of a mesh under one number: the quads first, then the triangles, then the polygons.
 
-inline std::size_t faceCount(const Mesh& mesh) { return mesh.quads.size() + mesh.triangles.size(); }
+inline std::size_t faceCount(const Mesh& mesh) {
+  return mesh.quads.size() + mesh.triangles.size() + mesh.polygons.size();
+}
 
 inline std::span<const std::uint32_t> face(const Mesh& mesh, std::size_t i) {
   if (i < mesh.quads.size()) return mesh.quads[i];
-  return mesh.triangles[i - mesh.quads.size()];
+  i -= mesh.quads.size();
+  if (i < mesh.triangles.size()) return mesh.triangles[i];
+  return mesh.polygons[i - mesh.triangles.size()];
 }
 
-/// \throws Error if a face names a vertex that does not exist.
-void checkIndices(const Mesh& mesh);
-
-// All triangles of a mesh under one number: the two of each quad first, then the others.
+// All triangles of a mesh without polygons under one number: the two of each quad first, then the others.
 
 inline std::size_t triangleCount(const Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
 

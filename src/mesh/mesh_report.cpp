@@ -1,37 +1,35 @@
 #include "pdc/mesh/mesh_report.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
-#include <compare>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <span>
-#include <vector>
+#include <tuple>
 
+#include "mesh/connectivity.h"
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 namespace {
 
 using Index = std::uint32_t;
+using detail::Connectivity;
+using detail::EdgeFace;
 using detail::face;
 using detail::faceCount;
 using detail::isFinite;
+using detail::OneRing;
 
 /// Grain of all reductions: sums are split the same way whatever the number of threads.
 constexpr std::size_t kGrain = 4096;
-
-/// One corner of one face: the vertex and its two neighbours along the face. Sorted by vertex, the corners of a vertex
-/// tell all about its fan and its edges, in 12 bytes per corner and without a map.
-struct Corner {
-  Index vertex, previous, next;
-  friend auto operator<=>(const Corner&, const Corner&) = default;
-};
 
 template <typename Value, typename Visit>
 Value sumOver(std::size_t count, Visit&& visit) {
@@ -42,21 +40,6 @@ Value sumOver(std::size_t count, Visit&& visit) {
         return sum;
       },
       [](Value a, const Value& b) { return a += b; });
-}
-
-Buffer<Corner> sortedCorners(const Mesh& mesh) {
-  const std::size_t quadCorners = 4 * mesh.quads.size();
-  Buffer<Corner> corners(quadCorners + 3 * mesh.triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faceCount(mesh), kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const auto f = face(mesh, i);
-      Corner* out = corners.data() + (f.size() == 4 ? 4 * i : quadCorners + 3 * (i - mesh.quads.size()));
-      for (std::size_t k = 0; k < f.size(); ++k)
-        out[k] = {f[k], f[(k + f.size() - 1) % f.size()], f[(k + 1) % f.size()]};
-    }
-  });
-  tbb::parallel_sort(corners.begin(), corners.end());
-  return corners;
 }
 
 struct FanCounts {
@@ -73,118 +56,77 @@ struct FanCounts {
   }
 };
 
-/// The faces about one vertex. Its neighbours are the nodes and its corners the arcs of a graph; the faces form one fan
-/// exactly if that graph is one cycle or one path.
-class Fan {
- public:
-  explicit Fan(std::span<const Corner> corners) : mCorners(corners) {
-    mSpokes.clear();
-    for (const Corner& c : corners) {
-      mSpokes.push_back({c.previous, false});
-      mSpokes.push_back({c.next, true});
-    }
-    std::sort(mSpokes.begin(), mSpokes.end());
-  }
-
-  /// Counts each edge at its lower end only. A face that names a vertex twice in a row has no edge there.
-  void countEdges(Index vertex, FanCounts& counts) const {
-    forEachSpoke([&](Index neighbour, std::size_t incoming, std::size_t outgoing) {
-      if (neighbour <= vertex) return;
-      const std::size_t faces = incoming + outgoing;
-      ++counts.edges;
-      counts.boundary += faces == 1;
-      counts.nonManifold += faces > 2;
-      counts.misoriented += faces == 2 && incoming != outgoing;
-    });
-  }
-
-  [[nodiscard]] bool isSingle() const {
-    std::size_t nodes = 0, ends = 0;
-    bool branches = false;
-    forEachSpoke([&](Index, std::size_t incoming, std::size_t outgoing) {
-      ++nodes;
-      ends += incoming + outgoing == 1;
-      branches |= incoming + outgoing > 2;
-    });
-    // Without branches each part is a cycle (as many arcs as nodes) or a path (one arc less, two ends).
-    return !branches && ends <= 2 && reachableFromFirst() == nodes;
-  }
-
- private:
-  struct Spoke {
-    Index neighbour;
-    bool outgoing;
-    friend auto operator<=>(const Spoke&, const Spoke&) = default;
-  };
-
-  template <typename Visit>
-  void forEachSpoke(Visit&& visit) const {
-    for (std::size_t i = 0; i < mSpokes.size();) {
-      const Index neighbour = mSpokes[i].neighbour;
-      std::size_t incoming = 0, outgoing = 0;
-      for (; i < mSpokes.size() && mSpokes[i].neighbour == neighbour; ++i)
-        ++(mSpokes[i].outgoing ? outgoing : incoming);
-      visit(neighbour, incoming, outgoing);
-    }
-  }
-
-  [[nodiscard]] std::size_t node(Index neighbour) const {
-    return static_cast<std::size_t>(std::lower_bound(mNodes.begin(), mNodes.end(), neighbour) - mNodes.begin());
-  }
-
-  [[nodiscard]] std::size_t root(std::size_t n) const {
-    while (mParent[n] != n) n = mParent[n] = mParent[mParent[n]];
-    return n;
-  }
-
-  [[nodiscard]] std::size_t reachableFromFirst() const {
-    mNodes.clear();
-    forEachSpoke([&](Index neighbour, std::size_t, std::size_t) { mNodes.push_back(neighbour); });
-    mParent.resize(mNodes.size());
-    for (std::size_t n = 0; n < mParent.size(); ++n) mParent[n] = n;
-    for (const Corner& c : mCorners) mParent[root(node(c.previous))] = root(node(c.next));
-    std::size_t reachable = 0;
-    for (std::size_t n = 0; n < mParent.size(); ++n) reachable += root(n) == root(0);
-    return reachable;
-  }
-
-  std::span<const Corner> mCorners;
-  // One fan is looked at after the other: memory is kept from fan to fan.
-  inline static thread_local std::vector<Spoke> mSpokes;
-  inline static thread_local std::vector<Index> mNodes;
-  inline static thread_local std::vector<std::size_t> mParent;
-};
-
-FanCounts countFans(const Buffer<Corner>& corners) {
-  return sumOver<FanCounts>(corners.size(), [&](std::size_t i, FanCounts& counts) {
-    const Index vertex = corners[i].vertex;
-    if (i > 0 && corners[i - 1].vertex == vertex) return;
-    std::size_t end = i + 1;
-    while (end < corners.size() && corners[end].vertex == vertex) ++end;
-    const Fan fan({corners.data() + i, end - i});
-    ++counts.usedVertices;
-    fan.countEdges(vertex, counts);
-    counts.nonManifoldVertices += !fan.isSingle();
+/// Counts each edge at its lower end only. A face that names a vertex twice in a row has no edge there.
+void countEdges(const OneRing& ring, std::size_t vertex, FanCounts& counts) {
+  ring.forEachEdge([&](Index neighbour, std::span<const EdgeFace> faces) {
+    if (neighbour <= vertex) return;
+    ++counts.edges;
+    counts.boundary += faces.size() == 1;
+    counts.nonManifold += faces.size() > 2;
+    counts.misoriented += faces.size() == 2 && faces[0].forward == faces[1].forward;
   });
 }
 
-/// Faces that name a vertex twice, and faces whose set of vertices was seen before.
-void countFaces(const Mesh& mesh, MeshReport& report) {
-  // The vertices in increasing order, each once, the last one repeated to fill four places: equal for equal sets.
-  Buffer<Quad> sets(faceCount(mesh));
-  report.degenerateFaces = sumOver<std::size_t>(sets.size(), [&](std::size_t i, std::size_t& degenerate) {
-    const auto f = face(mesh, i);
-    Quad& set = sets[i];
-    std::copy(f.begin(), f.end(), set.begin());
-    const auto end = set.begin() + static_cast<std::ptrdiff_t>(f.size());
-    std::sort(set.begin(), end);
-    const auto last = std::unique(set.begin(), end);
-    degenerate += last != end;
-    std::fill(last, set.end(), *(last - 1));
+FanCounts countFans(const Connectivity& connectivity) {
+  tbb::enumerable_thread_specific<OneRing> rings;
+  return sumOver<FanCounts>(connectivity.vertices(), [&](std::size_t v, FanCounts& counts) {
+    if (connectivity.corners(v).empty()) return;
+    OneRing& ring = rings.local();
+    ring.look(connectivity, static_cast<Index>(v));
+    ++counts.usedVertices;
+    countEdges(ring, v, counts);
+    counts.nonManifoldVertices += !ring.isFan();
   });
-  tbb::parallel_sort(sets.begin(), sets.end());
-  report.duplicateFaces = sumOver<std::size_t>(
-      sets.size(), [&](std::size_t i, std::size_t& duplicates) { duplicates += i > 0 && sets[i] == sets[i - 1]; });
+}
+
+using VertexSet = std::span<Index>;
+
+/// Sorts the vertices of a face and drops repeated ones.
+VertexSet toSet(VertexSet vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices.first(static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin()));
+}
+
+/// A set of up to four vertices, the last one repeated to fill four places: equal for equal sets.
+Quad filled(const VertexSet& set) {
+  Quad quad;
+  std::copy(set.begin(), set.end(), quad.begin());
+  std::fill(quad.begin() + static_cast<std::ptrdiff_t>(set.size()), quad.end(), set.back());
+  return quad;
+}
+
+template <typename Set, typename Less, typename Equal>
+std::size_t countRepeated(Buffer<Set>& sets, Less&& less, Equal&& equal) {
+  tbb::parallel_sort(sets.begin(), sets.end(), less);
+  return sumOver<std::size_t>(
+      sets.size(), [&](std::size_t i, std::size_t& repeated) { repeated += i > 0 && equal(sets[i], sets[i - 1]); });
+}
+
+/// Counts faces that name a vertex twice, and faces whose set of vertices was seen before.
+void countFaces(const Mesh& mesh, MeshReport& report) {
+  Buffer<Quad> small(mesh.quads.size() + mesh.triangles.size());
+  report.degenerateFaces = sumOver<std::size_t>(small.size(), [&](std::size_t i, std::size_t& degenerate) {
+    const auto f = face(mesh, i);
+    Quad vertices;
+    std::copy(f.begin(), f.end(), vertices.begin());
+    const VertexSet set = toSet(VertexSet(vertices).first(f.size()));
+    degenerate += set.size() < f.size();
+    small[i] = filled(set);
+  });
+
+  Buffer<Index> corners = mesh.polygons.corners;
+  Buffer<VertexSet> large(mesh.polygons.size());
+  report.degenerateFaces += sumOver<std::size_t>(large.size(), [&](std::size_t i, std::size_t& degenerate) {
+    const std::size_t size = mesh.polygons[i].size();
+    large[i] = toSet({corners.data() + mesh.polygons.starts[i], size});
+    degenerate += large[i].size() < size;
+  });
+  const auto isLarge = [](const VertexSet& set) { return set.size() > std::tuple_size_v<Quad>; };
+  const auto largeEnd = std::partition(large.begin(), large.end(), isLarge);
+  for (auto it = largeEnd; it != large.end(); ++it) small.push_back(filled(*it));
+  large.erase(largeEnd, large.end());
+  report.duplicateFaces = countRepeated(small, std::less<>(), std::equal_to<>()) +
+                          countRepeated(large, std::ranges::lexicographical_compare, std::ranges::equal);
 }
 
 /// Union-find over vertices. Threads link roots by compare-and-swap, always the higher under the lower, so which trees
@@ -222,37 +164,32 @@ class VertexSets {
   Buffer<Index> mParent;
 };
 
-std::size_t countComponents(const Mesh& mesh, const Buffer<Corner>& corners) {
+std::size_t countComponents(const Mesh& mesh, const Connectivity& connectivity) {
   VertexSets sets(mesh.positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faceCount(mesh), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       for (const Index v : face(mesh, i)) sets.unite(face(mesh, i)[0], v);
   });
-  return sumOver<std::size_t>(corners.size(), [&](std::size_t i, std::size_t& components) {
-    const bool first = i == 0 || corners[i - 1].vertex != corners[i].vertex;
-    components += first && sets.isRoot(corners[i].vertex);
+  return sumOver<std::size_t>(connectivity.vertices(), [&](std::size_t v, std::size_t& components) {
+    components += !connectivity.corners(v).empty() && sets.isRoot(static_cast<Index>(v));
   });
 }
 
-struct Bounds {
-  Vec3d lo{kMax, kMax, kMax}, hi{-kMax, -kMax, -kMax};
-  static constexpr double kMax = std::numeric_limits<double>::max();
-
-  Bounds& operator+=(const Bounds& o) {
-    lo = {std::min(lo.x, o.lo.x), std::min(lo.y, o.lo.y), std::min(lo.z, o.lo.z)};
-    hi = {std::max(hi.x, o.hi.x), std::max(hi.y, o.hi.y), std::max(hi.z, o.hi.z)};
-    return *this;
-  }
-  [[nodiscard]] Box box() const { return lo.x <= hi.x ? Box{lo, hi} : Box{{0, 0, 0}, {0, 0, 0}}; }
-};
-
-Box boundsOf(const Mesh& mesh, const Buffer<Corner>& corners) {
-  const Bounds bounds = sumOver<Bounds>(corners.size(), [&](std::size_t i, Bounds& sum) {
-    if (i > 0 && corners[i - 1].vertex == corners[i].vertex) return;
-    const Vec3f& p = mesh.positions[corners[i].vertex];
-    if (isFinite(p)) sum += {vecCast<double>(p), vecCast<double>(p)};
-  });
-  return bounds.box();
+Box boundsOf(const Mesh& mesh, const Connectivity& connectivity) {
+  const Box bounds = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, connectivity.vertices(), kGrain), Box::empty(),
+      [&](const tbb::blocked_range<std::size_t>& range, Box box) {
+        for (std::size_t v = range.begin(); v != range.end(); ++v) {
+          const Vec3f& p = mesh.positions[v];
+          if (!connectivity.corners(v).empty() && isFinite(p)) box.include(vecCast<double>(p));
+        }
+        return box;
+      },
+      [](Box a, const Box& b) {
+        a.include(b);
+        return a;
+      });
+  return bounds.isEmpty() ? Box{} : bounds;
 }
 
 struct Measures {
@@ -282,17 +219,19 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 }  // namespace
 
 MeshReport analyze(const Mesh& mesh) {
+  detail::checkSizes(mesh, "analyze", detail::FaceKinds::kAll);
   detail::checkIndices(mesh);
   MeshReport report;
   report.vertices = mesh.positions.size();
   report.quads = mesh.quads.size();
   report.triangles = mesh.triangles.size();
+  report.polygons = mesh.polygons.size();
   report.nonFiniteVertices = sumOver<std::size_t>(
       mesh.positions.size(), [&](std::size_t i, std::size_t& count) { count += !isFinite(mesh.positions[i]); });
   countFaces(mesh, report);
 
-  const Buffer<Corner> corners = sortedCorners(mesh);
-  const FanCounts fans = countFans(corners);
+  const Connectivity connectivity(mesh);
+  const FanCounts fans = countFans(connectivity);
   report.edges = fans.edges;
   report.boundaryEdges = fans.boundary;
   report.nonManifoldEdges = fans.nonManifold;
@@ -301,8 +240,8 @@ MeshReport analyze(const Mesh& mesh) {
   report.unusedVertices = report.vertices - fans.usedVertices;
   report.eulerNumber = static_cast<long long>(fans.usedVertices) - static_cast<long long>(fans.edges) +
                        static_cast<long long>(faceCount(mesh));
-  report.components = countComponents(mesh, corners);
-  report.bounds = boundsOf(mesh, corners);
+  report.components = countComponents(mesh, connectivity);
+  report.bounds = boundsOf(mesh, connectivity);
   const Measures measures = measure(mesh, report.bounds.center());
   report.area = measures.area;
   report.volume = measures.volume;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 namespace {
@@ -26,6 +27,7 @@ float minimumAngle(const detail::TriangleCorners& c) {
 }  // namespace
 
 Buffer<float> minimumAngles(const Mesh& mesh) {
+  detail::checkSizes(mesh, "minimumAngles");
   detail::checkIndices(mesh);
   Buffer<float> angles(detail::triangleCount(mesh));
   tbb::parallel_for(std::size_t{0}, angles.size(),

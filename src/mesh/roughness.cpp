@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/connectivity.h"
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 namespace {
@@ -24,13 +26,14 @@ std::vector<Vec3d> vertexNormals(const Mesh& mesh) {
   forEachNormal(mesh, [&](const Triangle& t, const Vec3d& n) {
     for (const std::uint32_t v : t) normals[v] += n;
   });
-  for (Vec3d& n : normals) n *= 1 / length(n);  // Not finite where there is none.
+  for (Vec3d& n : normals) n *= 1 / length(n);  // A vertex without one gets NaN.
   return normals;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> flatVertices(const Mesh& mesh, double degrees) {
+  detail::checkSizes(mesh, "flatVertices");
   detail::checkIndices(mesh);
   const double least = std::cos(degrees * std::numbers::pi / 180);
   const std::vector<Vec3d> normals = vertexNormals(mesh);
@@ -44,22 +47,18 @@ std::vector<std::uint8_t> flatVertices(const Mesh& mesh, double degrees) {
 }
 
 double roughness(const Mesh& mesh, const std::vector<std::uint8_t>& chosen) {
+  detail::checkSizes(mesh, "roughness");
   detail::checkIndices(mesh);
   const std::vector<Vec3d> normals = vertexNormals(mesh);
-  std::vector<Vec3d> sums(normals.size(), Vec3d{});
-  std::vector<double> counts(normals.size(), 0);
-  for (std::size_t i = 0; i < detail::faceCount(mesh); ++i) {
-    const auto face = detail::face(mesh, i);
-    // Each edge from its first end: a closed mesh names it once in either direction.
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      sums[face[k]] += vecCast<double>(mesh.positions[face[(k + 1) % face.size()]]);
-      counts[face[k]] += 1;
-    }
-  }
+  const detail::Connectivity connectivity(mesh);
   double squares = 0, used = 0;
   for (std::size_t v = 0; v < std::min(chosen.size(), normals.size()); ++v) {
     if (chosen[v] == 0) continue;
-    const double d = dot(normals[v], vecCast<double>(mesh.positions[v]) - sums[v] * (1 / counts[v]));
+    // The next vertex of each face: around a vertex within the surface each neighbour is next once.
+    Vec3d sum{};
+    for (const detail::Corner& corner : connectivity.corners(v)) sum += vecCast<double>(mesh.positions[corner.next]);
+    const double count = static_cast<double>(connectivity.corners(v).size());
+    const double d = dot(normals[v], vecCast<double>(mesh.positions[v]) - sum * (1 / count));
     if (!std::isfinite(d)) continue;
     squares += d * d;
     used += 1;

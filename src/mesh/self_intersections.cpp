@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 #include "mesh/triangle_tree.h"
 #include "pdc/error.h"
 
@@ -74,7 +75,7 @@ struct Leaf {
   std::span<const std::uint32_t> numbers;
   std::array<Triangle, TriangleTree::kLeaf> vertices;
   std::array<detail::TriangleCorners, TriangleTree::kLeaf> corners;
-  std::array<detail::BoxF, TriangleTree::kLeaf> boxes;
+  std::array<BoxF, TriangleTree::kLeaf> boxes;
 
   Leaf(const Mesh& mesh, std::span<const std::uint32_t> triangles) : numbers(triangles) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -165,6 +166,7 @@ class Search {
 }  // namespace
 
 SelfIntersections selfIntersections(const Mesh& mesh, const SelfIntersectionOptions& options, const Monitor& monitor) {
+  detail::checkSizes(mesh, "selfIntersections");
   detail::checkIndices(mesh);
   monitor.throwIfStopped();
   Candidates candidates = candidatesOf(mesh);

@@ -18,7 +18,7 @@ Corners widened(const TriangleCorners& t) {
   return {vecCast<double>(t[0]), vecCast<double>(t[1]), vecCast<double>(t[2])};
 }
 
-/// The same triangle with corner `first` in front.
+/// Turns a triangle so that corner `first` is in front.
 Corners rotated(const TriangleCorners& t, int first) {
   return {vecCast<double>(t[first]), vecCast<double>(t[next(first)]), vecCast<double>(t[next(next(first))])};
 }
@@ -113,7 +113,7 @@ int loneCorner(const Signs& s) { return s[1] == s[2] ? 0 : s[0] == s[2] ? 1 : 2;
 bool intervalsMeet(const Corners& a, const Corners& b, const Signs& as, const Signs& bs) {
   const int i = loneCorner(as), k = loneCorner(bs);
   int iStart = next(i), iEnd = next(iStart), kStart = next(k), kEnd = next(kStart);
-  // As if both lone corners were before the other's plane.
+  // Now it is as if both lone corners were before the other's plane.
   if (as[i] < 0) std::swap(kStart, kEnd);
   if (bs[k] < 0) std::swap(iStart, iEnd);
   return orient3d(a[i], a[iStart], b[k], b[kStart]) <= 0 && orient3d(a[i], a[iEnd], b[k], b[kEnd]) >= 0;
@@ -145,7 +145,7 @@ bool isDegenerate(const TriangleCorners& t) { return collinear(t[0], t[1], t[2])
 
 bool trianglesIntersect(const TriangleCorners& a, const Triangle& aVertices, const TriangleCorners& b,
                         const Triangle& bVertices, const TriangleSides& known) {
-  // For each corner of a the corner of b at the same vertex, or none.
+  // match[i] is the corner of b at the same vertex as corner i of a, or none.
   constexpr int kNone = -1;
   std::array<int, 3> match{kNone, kNone, kNone};
   int shared = 0, lastShared = 0, notShared = 2;

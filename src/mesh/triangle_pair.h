@@ -11,7 +11,7 @@ using TriangleCorners = std::array<Vec3f, 3>;
 /// Whether the corners lie on one line, decided exactly.
 [[nodiscard]] bool isDegenerate(const TriangleCorners& t);
 
-/// Of two triangles, on which side of the other's plane each corner is, as orient3d says it; 0 where that is not known.
+/// On which side of the other's plane each corner of two triangles is, as orient3d says it; 0 where that is not known.
 struct TriangleSides {
   using Signs = std::array<int, 3>;
   Signs a{}, b{};

@@ -6,7 +6,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "mesh/faces.h"
@@ -15,11 +14,6 @@ namespace pdc::detail {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-
-BoxF nothing() {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-}
 
 /// A triangle on its way to its place.
 struct Item {
@@ -35,7 +29,7 @@ constexpr int kCurveBits = 19;  // per axis
 constexpr int kClassShift = 3 * kCurveBits;
 constexpr int kLastClass = (1 << (64 - kClassShift)) - 1;
 
-/// With two zero bits between each and the next of the low 21 bits.
+/// Puts two zero bits between each and the next of the low 21 bits.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;
@@ -71,11 +65,11 @@ class Sorter {
   BoxF summary(Items items, double* largest) const {
     using Summary = std::pair<BoxF, double>;
     const Summary all = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, items.size(), kGrain), Summary{nothing(), 0},
+        tbb::blocked_range<std::size_t>(0, items.size(), kGrain), Summary{BoxF::empty(), 0},
         [&](const auto& range, Summary sum) {
           for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const BoxF b = box(items[i]);
-            sum.first.include({center(b), center(b)});
+            sum.first.include(center(b));
             sum.second = std::max(sum.second, largestSide(b));
           }
           return sum;
@@ -141,7 +135,7 @@ Buffer<BoxF> groupBoxes(std::size_t count, BoxOfOne&& boxOfOne) {
   Buffer<BoxF> boxes((count + kGroup - 1) / kGroup);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      boxes[i] = nothing();
+      boxes[i] = BoxF::empty();
       for (std::size_t k = kGroup * i; k < std::min(kGroup * (i + 1), count); ++k) boxes[i].include(boxOfOne(k));
     }
   });
@@ -152,8 +146,8 @@ Buffer<BoxF> groupBoxes(std::size_t count, BoxOfOne&& boxOfOne) {
 
 BoxF boxOf(const TriangleCorners& t) {
   BoxF box{t[0], t[0]};
-  box.include({t[1], t[1]});
-  box.include({t[2], t[2]});
+  box.include(t[1]);
+  box.include(t[2]);
   return box;
 }
 

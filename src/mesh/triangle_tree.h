@@ -9,31 +9,10 @@
 #include <vector>
 
 #include "mesh/triangle_pair.h"
+#include "pdc/math/box.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
-
-struct BoxF {
-  Vec3f lo, hi;
-
-  void include(const BoxF& o) {
-    lo = {std::min(lo.x, o.lo.x), std::min(lo.y, o.lo.y), std::min(lo.z, o.lo.z)};
-    hi = {std::max(hi.x, o.hi.x), std::max(hi.y, o.hi.y), std::max(hi.z, o.hi.z)};
-  }
-  /// The square of the distance from a point; 0 inside.
-  [[nodiscard]] double squaredDistance(const Vec3d& p) const {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double beyond = std::max({double(lo[k]) - p[k], p[k] - double(hi[k]), 0.0});
-      sum += beyond * beyond;
-    }
-    return sum;
-  }
-  /// Boxes include their borders.
-  [[nodiscard]] bool meets(const BoxF& o) const {
-    return lo.x <= o.hi.x && o.lo.x <= hi.x && lo.y <= o.hi.y && o.lo.y <= hi.y && lo.z <= o.hi.z && o.lo.z <= hi.z;
-  }
-};
 
 [[nodiscard]] BoxF boxOf(const TriangleCorners& t);
 
@@ -44,7 +23,7 @@ class TriangleTree {
  public:
   static constexpr std::size_t kLeaf = 4, kFan = 4;
 
-  /// Over the triangles with these numbers (see faces.h), all of them finite. Runs in parallel; the tree depends only
+  /// Sorts the triangles with these numbers (see faces.h), all of them finite. Runs in parallel; the tree depends only
   /// on the mesh and the numbers.
   TriangleTree(const Mesh& mesh, Buffer<std::uint32_t> triangles);
 

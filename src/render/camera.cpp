@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 #include "pdc/error.h"
 
 namespace pdc {
@@ -26,7 +27,6 @@ Mat3d axesOf(const Vec3d& towardsViewer) {
 
 /// Grows lo and hi to hold the mesh's faces seen along the axes.
 void include(const Mesh& mesh, const Mat3d& axes, Vec3d& lo, Vec3d& hi) {
-  detail::checkIndices(mesh);
   for (std::size_t i = 0; i < detail::triangleCount(mesh); ++i) {
     const auto corners = detail::corners(mesh, detail::triangle(mesh, i));
     if (!std::all_of(corners.begin(), corners.end(), detail::isFinite)) continue;
@@ -59,7 +59,11 @@ Camera fitCamera(std::span<const Mesh> meshes, const Vec3d& towardsViewer, int w
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Mat3d axes = axesOf(towardsViewer);
   Vec3d lo{kInfinity, kInfinity, kInfinity}, hi = -lo;
-  for (const Mesh& mesh : meshes) include(mesh, axes, lo, hi);
+  for (const Mesh& mesh : meshes) {
+    detail::checkSizes(mesh, "fitCamera");
+    detail::checkIndices(mesh);
+    include(mesh, axes, lo, hi);
+  }
   if (!(lo.x <= hi.x)) throw Error("nothing to show: the mesh has no face with finite corners");
   const Vec3d size = hi - lo;
   const double free = 1 - 2 * kMargin;

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "mesh/mesh_checks.h"
 #include "parallel/with_threads.h"
 #include "render/tile.h"
 
@@ -61,6 +62,7 @@ Image run(const Mesh& mesh, const RenderOptions& options, const Monitor& monitor
 }  // namespace
 
 Image render(const Mesh& mesh, const RenderOptions& options, const Monitor& monitor) {
+  detail::checkSizes(mesh, "render");
   checkOptions(mesh, options);
   return detail::withThreads(options.threads, [&] { return run(mesh, options, monitor); });
 }

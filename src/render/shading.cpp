@@ -10,10 +10,10 @@ namespace {
 constexpr Vec3f kClayColor{0.64F, 0.58F, 0.50F};
 constexpr Vec3f kBackFaceColor{0.60F, 0.16F, 0.10F};
 constexpr Vec3f kBackground{0.93F, 0.93F, 0.91F};
-/// From the left above the viewer's shoulder.
+/// The light comes from the left above the viewer's shoulder.
 constexpr Vec3f kLamp{-0.48F, 0.60F, 0.64F};
 
-/// A weak one from the right, or what the lamp does not reach would all look alike.
+/// A weak second light from the right, without which all that the lamp does not reach would look alike.
 constexpr Vec3f kSecondLamp{0.80F, 0.10F, 0.59F};
 constexpr float kSecondShare = 0.18F;
 

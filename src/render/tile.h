@@ -19,7 +19,7 @@ struct Picture {
 };
 
 /// Renders squares of a picture one after the other. A tile looks a few pixels beyond its borders, so that what it
-/// makes does not depend on how the picture is cut up. For one thread.
+/// makes does not depend on how the picture is cut up. Only one thread may use it.
 class TileRenderer {
  public:
   static constexpr int kTileSide =
@@ -34,11 +34,11 @@ class TileRenderer {
   struct Sample {
     Vec3f normal{};   ///< Faces the viewer; zero where there is no surface.
     float z = 0;      ///< Pixels, towards the viewer.
-    float value = 0;  ///< Of kValues, from 0 to 1.
+    float value = 0;  ///< The share for kValues, from 0 to 1.
     float edge = 0;   ///< Darkness of a mesh edge over it.
     bool hit = false, backFace = false;
   };
-  /// Of a pixel: the nearest of its samples and the share of the sky that it sees.
+  /// What a pixel keeps: the nearest of its samples and the share of the sky that it sees.
   struct Sky {
     Vec3f normal{};
     float z = 0, open = 1;
@@ -61,7 +61,7 @@ class TileRenderer {
   int mPixelsAcross;       ///< With margins.
   int mSamplesAcross;      ///< With margins.
   float mSkyReach;         ///< How far occluders count, in pixels.
-  float mX0 = 0, mY0 = 0;  ///< Of the first pixel with margins, from the left and from the top.
+  float mX0 = 0, mY0 = 0;  ///< Where the first pixel with margins is, from the left and from the top.
   std::vector<Sample> mSamples;
   std::vector<Sky> mSky;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc::detail {
 namespace {

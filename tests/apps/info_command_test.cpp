@@ -60,6 +60,19 @@ TEST(InfoCommand, MeshFacts) {
   EXPECT_EQ(facts["bounds_hi"], (Json{1.0, 1.0, 1.0}));
 }
 
+TEST(InfoCommand, ListsThePropertiesOfVertices) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("rated.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                   "property uchar rank\nproperty double flow_x\nproperty double flow_y\nend_header\n0 0 0 1 2 3\n");
+  EXPECT_EQ(infoOf(file)["properties"], Json::parse(R"([{"name": "rank", "type": "uint8", "components": 1},
+                                                        {"name": "flow", "type": "double", "components": 2}])"));
+  const std::string text = runPdc({"info", file}).out;
+  EXPECT_NE(text.find("name        flow\n  type        double\n  components  2\n"), std::string::npos) << text;
+  EXPECT_FALSE(infoOf(folder.write("plain.obj", kTetrahedron)).contains("properties"));
+}
+
 TEST(InfoCommand, ReportsBadMeshesWithoutJudging) {
   const TemporaryFolder folder;
   const std::string fan = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";

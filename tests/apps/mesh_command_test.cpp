@@ -232,8 +232,8 @@ TEST_F(MeshCommand, ConfidenceAndRankAreWrittenAndDrawn) {
   const Mesh rated = readMesh(mOutput);
   EXPECT_EQ(rated.positions, plain.positions);
   EXPECT_EQ(rated.quads, plain.quads);
-  EXPECT_EQ(readVertexProperty(mOutput, "confidence").value().size(), plain.positions.size());
-  EXPECT_EQ(readVertexProperty(mOutput, "rank").value().size(), plain.positions.size());
+  EXPECT_EQ(rated.values<float>("confidence").size(), plain.positions.size());
+  EXPECT_EQ(rated.values<std::uint8_t>("rank").size(), plain.positions.size());
   const Outcome drawn = runPdc({"render", mOutput, mFolder / "rated.png", "--shading", "confidence"});
   EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
   EXPECT_NE(drawn.out.find("confidence from 0, blue, to 1, yellow"), std::string::npos) << drawn.out;

@@ -11,11 +11,12 @@
 namespace pdc::test {
 namespace {
 
-// A tetrahedron whose vertices know a number each, but not their confidence.
+// A tetrahedron whose vertices have three properties, but no confidence.
 const std::string kTetrahedron =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-    "property float error\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
-    "0 0 0 0\n1 0 0 1\n0 1 0 2\n0 0 1 0.5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    "property float error\nproperty int clay\nproperty double flow_x\nproperty double flow_y\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0 0 -7 1 0\n1 0 0 1 -4 0 -2\n0 1 0 2 -5 3 4\n0 0 1 0.5 -6 nan 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 class RenderCommand : public ::testing::Test {
  protected:
@@ -65,6 +66,17 @@ TEST_F(RenderCommand, ErrorIsAPropertyOrTheDistanceToAReference) {
   EXPECT_NE(mSaid.find("to 0, yellow"), std::string::npos) << mSaid;
 }
 
+TEST_F(RenderCommand, AnyPropertyGivesColours) {
+  const std::string error = draw({"--shading", "property:error"});
+  EXPECT_NE(mSaid.find("error from 0, blue, to 2, yellow"), std::string::npos) << mSaid;
+  EXPECT_EQ(error, draw({"--shading", "error"}));
+  EXPECT_NE(draw({"--shading", "property:clay"}), draw({"--shading", "clay"}));
+  EXPECT_NE(draw({"--shading", "property:clay"}), error);
+  EXPECT_NE(mSaid.find("clay from -7, blue, to -4, yellow"), std::string::npos) << mSaid;
+  draw({"--shading", "property:flow"});
+  EXPECT_NE(mSaid.find("flow from 1, blue, to 5, yellow"), std::string::npos) << mSaid;
+}
+
 TEST_F(RenderCommand, BadRequestsFailInOneLine) {
   expectRefusal({mMesh, mPicture, "--view", "sideways"}, 2, {"--view", "'sideways'", "iso, front"});
   expectRefusal({mMesh, mPicture, "--view", "0,0,0"}, 2, {"--view", "'0,0,0'"});
@@ -72,6 +84,7 @@ TEST_F(RenderCommand, BadRequestsFailInOneLine) {
   for (const char* size : {"0x10", "10", "10x", "1.5x2", "10x9000", "-1x1", "10x10x10"})
     expectRefusal({mMesh, mPicture, std::string("--size=") + size}, 2, {"--size", size, "1 to 8192"});
   expectRefusal({mMesh, mPicture, "--shading", "gold"}, 2, {"--shading", "gold"});
+  expectRefusal({mMesh, mPicture, "--shading", "property:"}, 2, {"--shading", "property:NAME"});
   expectRefusal({mMesh, mPicture, "--reference", mMesh}, 2, {"--reference", "--shading error only"});
   expectRefusal({mMesh, mPicture, "--range", "0"}, 2, {"--range", "> 0"});
   expectRefusal({mMesh}, 2, {"OUT"});
@@ -84,6 +97,7 @@ TEST_F(RenderCommand, BadFilesFailInOneLine) {
   expectRefusal({mFolder.write("empty.off", "OFF\n1 0 0\n0 0 0\n"), mPicture}, 1, {"empty.off", "no faces"});
   expectRefusal({mFolder.write("nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), mPicture}, 1, {"finite"});
   expectRefusal({mMesh, mPicture, "--shading", "confidence"}, 1, {"mesh.ply", "\"confidence\""});
+  expectRefusal({mMesh, mPicture, "--shading", "property:gold"}, 1, {"mesh.ply", "\"gold\""});
   expectRefusal(
       {mFolder.write("plain.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), mPicture, "--shading", "error"}, 1,
       {"plain.off", "\"error\"", "--reference"});

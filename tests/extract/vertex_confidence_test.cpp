@@ -48,13 +48,14 @@ int planesThrough(const Vec3f& p) {
 
 TEST_F(VertexConfidence, RanksOfABoxAreItsFacesEdgesAndCorners) {
   const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .ranks = true});
-  ASSERT_EQ(mesh.ranks.size(), mesh.positions.size());
-  EXPECT_TRUE(mesh.confidence.empty());
+  const auto rank = mesh.values<std::uint8_t>("rank");
+  ASSERT_EQ(rank.size(), mesh.positions.size());
+  EXPECT_EQ(mesh.properties.size(), 1u);
   std::array<int, 4> ranks{};
-  for (std::size_t i = 0; i < mesh.ranks.size(); ++i) {
-    ASSERT_LE(mesh.ranks[i], 3);
-    ++ranks[mesh.ranks[i]];
-    EXPECT_GE(planesThrough(mesh.positions[i]), mesh.ranks[i]) << i;
+  for (std::size_t i = 0; i < rank.size(); ++i) {
+    ASSERT_LE(rank[i], 3);
+    ++ranks[rank[i]];
+    EXPECT_GE(planesThrough(mesh.positions[i]), rank[i]) << i;
   }
   EXPECT_EQ(ranks[0], 0);
   EXPECT_GE(ranks[3], 8);
@@ -64,11 +65,12 @@ TEST_F(VertexConfidence, RanksOfABoxAreItsFacesEdgesAndCorners) {
 
 TEST_F(VertexConfidence, ExactPlanesHaveFullConfidence) {
   const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .confidence = true});
-  EXPECT_TRUE(mesh.ranks.empty());
-  ASSERT_EQ(mesh.confidence.size(), mesh.positions.size());
+  const auto confidence = mesh.values<float>("confidence");
+  ASSERT_EQ(confidence.size(), mesh.positions.size());
+  EXPECT_EQ(mesh.properties.size(), 1u);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (planesThrough(mesh.positions[i]) == 1) {
-      ASSERT_GT(mesh.confidence[i], 0.999F) << i;
+      ASSERT_GT(confidence[i], 0.999F) << i;
     }
 }
 
@@ -78,17 +80,18 @@ TEST_F(VertexConfidence, RanksOfALevelSetAreThoseOfItsCreases) {
       std::find_if(shapes.begin(), shapes.end(), [](const eval::Shape& s) { return s.name == "hexagon"; });
   const eval::Pose pose = eval::randomPose(kPose, kSize);
   const Mesh mesh = contour(GridSource(eval::makeGrid("exact", *hexagon, pose, 0, 1).grid), kRated);
+  const auto ranks = mesh.values<std::uint8_t>("rank");
   for (const Vec3d& corner : hexagon->corners) {
     int nearest = 0;
     double best = 2;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
       if (const double d = length(vecCast<double>(mesh.positions[i]) - pose.toWorld(corner)); d < best) {
         best = d;
-        nearest = mesh.ranks[i];
+        nearest = ranks[i];
       }
     EXPECT_GE(nearest, 2);
   }
-  EXPECT_GE(std::count(mesh.ranks.begin(), mesh.ranks.end(), 3), 8);
+  EXPECT_GE(std::count(ranks.begin(), ranks.end(), 3), 8);
 }
 
 TEST_F(VertexConfidence, AskingChangesNothingElseAndThreadsDoNotMatter) {
@@ -101,14 +104,13 @@ TEST_F(VertexConfidence, AskingChangesNothingElseAndThreadsDoNotMatter) {
   EXPECT_EQ(rated.positions, plain.positions);
   EXPECT_EQ(rated.quads, plain.quads);
   EXPECT_EQ(rated.triangles, plain.triangles);
-  ASSERT_EQ(rated.confidence.size(), rated.positions.size());
-  ASSERT_EQ(rated.ranks.size(), rated.positions.size());
-  for (const float c : rated.confidence) ASSERT_TRUE(c > 0 && c <= 1) << c;
+  ASSERT_EQ(rated.values<float>("confidence").size(), rated.positions.size());
+  ASSERT_EQ(rated.values<std::uint8_t>("rank").size(), rated.positions.size());
+  for (const float c : rated.values<float>("confidence")) ASSERT_TRUE(c > 0 && c <= 1) << c;
   for (const int threads : {1, 3}) {
     const Mesh again =
         contour(source, {.triangles = threads == 3, .confidence = true, .ranks = true, .threads = threads});
-    EXPECT_EQ(again.confidence, rated.confidence);
-    EXPECT_EQ(again.ranks, rated.ranks);
+    EXPECT_EQ(again.properties, rated.properties);
   }
 }
 
@@ -123,7 +125,7 @@ TEST_F(VertexConfidence, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
         const eval::Pose pose = eval::randomPose(kPose, kSize);
         const GridSource source(eval::makeGrid("exact", shape, pose, noise, 1).grid, {.hermite = mode});
         const Mesh mesh = contour(source, {.confidence = true});
-        for (const float c : mesh.confidence) doubt.push_back(-c);
+        for (const float c : mesh.values<float>("confidence")) doubt.push_back(-c);
         const std::vector<double> errors = eval::vertexErrors(mesh, shape, pose);
         error.insert(error.end(), errors.begin(), errors.end());
       }

@@ -43,6 +43,7 @@ TEST(PngWriter, WritesTheSameBytesToAFile) {
 
 TEST(PngWriter, Refusals) {
   const TemporaryFolder folder;
+  EXPECT_NO_THROW(checkPngPath(folder.path() / "a.PNG"));
   EXPECT_THROW(checkPngPath(folder.path() / "a.jpg"), Error);
   EXPECT_THROW(checkPngPath(folder.path() / "none/a.png"), Error);
   EXPECT_THROW(static_cast<void>(encodePng({})), std::invalid_argument);

@@ -30,14 +30,16 @@ struct ContourOptions {
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
-  /// Also the confidence of each vertex, 1 / (1 + s / kHalfConfidence), where s estimates the standard deviation of the
-  /// vertex's place in voxels: s² is the variance that the residuals of its planes give the solution in the directions
-  /// that they determine (Gauss-Markov), plus the square of its distance from its neighbours' mean along its normal,
-  /// neighbours across a crease left out. So noise lowers it, and so do tight curvature and being drawn back. It knows
-  /// nothing of errors that all vertices about a place share. Costs about as much again as contouring.
+  /// Also the confidence of each vertex as the mesh's property "confidence", floats from 0 to 1: 1 / (1 + s /
+  /// kHalfConfidence), where s estimates the standard deviation of the vertex's place in voxels: s² is the variance
+  /// that the residuals of its planes give the solution in the directions that they determine (Gauss-Markov), plus the
+  /// square of its distance from its neighbours' mean along its normal, neighbours across a crease left out. So noise
+  /// lowers it, and so do tight curvature and being drawn back. It knows nothing of errors that all vertices about a
+  /// place share. Costs about as much again as contouring.
   bool confidence = false;
-  /// Also the rank of each vertex: the number of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the
-  /// trace, so that planes at 26° or more count as two.
+  /// Also the rank of each vertex as the property "rank", uint8, 1 on flat parts, 2 on edges, 3 at corners: the number
+  /// of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the trace, so that planes at 26° or more count as
+  /// two.
   bool ranks = false;
   /// Also ContourReport::quadrics. Costs about as much again as contouring, and 40 bytes per vertex.
   bool quadrics = false;

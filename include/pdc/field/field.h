@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "pdc/math/box.h"
 #include "pdc/math/interval.h"
 
 namespace pdc {

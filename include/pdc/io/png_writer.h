@@ -13,7 +13,7 @@ namespace pdc {
 /// \throws std::invalid_argument if the picture has no pixels or not as many as its size says.
 [[nodiscard]] std::vector<std::uint8_t> encodePng(const Image& image);
 
-/// Throws Error unless `path` ends in .png and lies in a folder that exists and can be written to. Makes no file.
+/// Throws Error unless `path` ends in .png, in any case, and lies in a folder that exists and can be written to. Makes no file.
 void checkPngPath(const std::filesystem::path& path);
 
 /// Writes a .png file, which appears under its name only when it is complete. \returns bytes written. \throws Error

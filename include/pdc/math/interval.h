@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "pdc/math/vec3.h"
-
 namespace pdc {
 
 /// A closed range of values that is guaranteed to hold a function's values over a box. lo <= hi.
@@ -25,15 +23,5 @@ struct Interval {
 
 constexpr Interval min(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 constexpr Interval max(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
-
-/// An axis-aligned box, lo <= hi on every axis.
-struct Box {
-  Vec3d lo, hi;
-
-  [[nodiscard]] constexpr Vec3d center() const { return (lo + hi) * 0.5; }
-  [[nodiscard]] constexpr Vec3d halfSize() const { return (hi - lo) * 0.5; }
-  /// Distance from the centre to a corner.
-  [[nodiscard]] double radius() const { return length(halfSize()); }
-};
 
 }  // namespace pdc

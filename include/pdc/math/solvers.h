@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "pdc/math/interval.h"
+#include "pdc/math/box.h"
 #include "pdc/math/mat3.h"
 #include "pdc/math/quadric.h"
 #include "pdc/math/sym_mat3.h"

@@ -9,14 +9,16 @@
 
 namespace pdc {
 
-/// Fresh memory is dear: the system clears it page by page, which can take as long as filling it with a mesh. So large
-/// arrays lie in huge pages where the system has them, and up to kKeptMemory bytes of what they leave behind are kept
-/// for the next ones.
+// Fresh memory is dear: the system clears it page by page, which can take as long as filling it with a mesh. So arrays
+// of half a mebibyte and more lie in huge pages where the system has them, and what they leave behind is kept for the
+// next ones. The kept memory is one pool for the whole process, which all threads share.
+
+/// The most bytes that are kept. The oldest are given back for newer ones.
 inline constexpr std::size_t kKeptMemory = std::size_t{128} << 20;
 
-/// Bytes that are kept at present.
+/// How many bytes are kept at present: 0 to kKeptMemory. Another thread may change it at any time.
 [[nodiscard]] std::size_t keptMemory();
-/// Gives all of the memory back to the system that large arrays have left behind. Safe at any time, from any thread.
+/// Gives all kept memory back to the system; arrays in use stay as they are. Safe at any time, from any thread.
 void releaseMemory();
 
 namespace detail {
@@ -26,7 +28,9 @@ inline constexpr std::size_t kLargeBytes = std::size_t{1} << 19;
 }  // namespace detail
 
 /// An allocator that leaves elements that are copied byte by byte uninitialised on resize, whatever their members'
-/// initial values, so that large arrays are first touched by the threads that fill them.
+/// initial values, so that large arrays are first touched by the threads that fill them. Has no state: all are equal.
+/// Any thread may free what another has allocated. Throws std::bad_alloc where memory is out, and
+/// std::bad_array_new_length, which is one, for more elements than can be addressed.
 template <typename T>
 struct UninitializedAllocator {
   using value_type = T;
@@ -52,7 +56,8 @@ struct UninitializedAllocator {
   friend bool operator==(const UninitializedAllocator&, const UninitializedAllocator&) { return true; }
 };
 
-/// A std::vector whose resize() does not clear.
+/// A std::vector whose resize() does not clear: new elements hold anything until they are written. Guarantees to
+/// threads are those of std::vector.
 template <typename T>
 using Buffer = std::vector<T, UninitializedAllocator<T>>;
 

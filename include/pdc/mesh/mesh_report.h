@@ -2,15 +2,15 @@
 
 #include <cstddef>
 
-#include "pdc/math/interval.h"
+#include "pdc/math/box.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc {
 
-/// Plain facts about a mesh taken as a soup of indexed faces. Quads count as one face with four edges for topology and
-/// as their two triangles (see Mesh) for area and volume.
+/// Plain facts about a mesh taken as a soup of indexed faces. Quads and polygons count as one face with as many edges
+/// as corners for topology, and as fans of triangles from their first corner for area and volume.
 struct MeshReport {
-  std::size_t vertices = 0, quads = 0, triangles = 0;
+  std::size_t vertices = 0, quads = 0, triangles = 0, polygons = 0;
   std::size_t edges = 0;
   std::size_t boundaryEdges = 0;        ///< Edges with one face.
   std::size_t nonManifoldEdges = 0;     ///< Edges with more than two faces.
@@ -24,11 +24,11 @@ struct MeshReport {
   long long eulerNumber = 0;          ///< V - E + F, unused vertices left out.
   double area = 0;                    ///< World units squared.
   double volume = 0;                  ///< Signed, by the divergence theorem; positive if faces point outwards.
-  Box bounds{};                       ///< Of the used vertices; zero if there are none.
+  Box bounds{};                       ///< The box of the used vertices that are finite; zero if there are none.
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
-/// does not exist.
+/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says.
 [[nodiscard]] MeshReport analyze(const Mesh& mesh);
 
 }  // namespace pdc

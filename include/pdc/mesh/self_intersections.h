@@ -19,11 +19,12 @@ struct SelfIntersectionOptions {
 /// Triangles are numbered through the mesh: quad q is triangles 2 q and 2 q + 1, (v0, v1, v2) and (v0, v2, v3), and
 /// triangle t is number 2 quads + t.
 struct SelfIntersections {
-  /// Each the smaller number first, sorted, each once; the first maxPairs that were found if there are more.
+  /// Sorted, each pair once with the smaller number first. If there are more than maxPairs, these are the first that
+  /// were found.
   std::vector<std::array<std::uint32_t, 2>> pairs;
   bool complete = true;                 ///< False: there are more than maxPairs.
-  std::size_t degenerateTriangles = 0;  ///< With all corners on one line, so of no area; in no pair.
-  std::size_t nonFiniteTriangles = 0;   ///< With a NaN or infinite coordinate; in no pair.
+  std::size_t degenerateTriangles = 0;  ///< All their corners are on one line; they are in no pair.
+  std::size_t nonFiniteTriangles = 0;   ///< They have a NaN or infinite coordinate and are in no pair.
 };
 
 /// The pairs of triangles that meet in more than the vertex or the edge that they share by index. A touch counts; so

@@ -35,10 +35,10 @@ class AtomicFile {
   void openTemporary(mode_t permissions);
   void discard() noexcept;
 
-  std::filesystem::path mPath;               ///< As given; for messages.
+  std::filesystem::path mPath;               ///< The path as it was given; for messages.
   std::filesystem::path mTarget;             ///< Links resolved.
   std::filesystem::path mTemporary;          ///< Empty if the target is written directly.
-  std::optional<TemporaryFileEntry> mEntry;  ///< For as long as the temporary file exists.
+  std::optional<TemporaryFileEntry> mEntry;  ///< Lives as long as the temporary file.
   int mDescriptor = -1;
   std::size_t mBytesWritten = 0;
 };

@@ -10,8 +10,8 @@ namespace pdc::detail {
 /// Writes text into the end of a buffer that was made large enough beforehand.
 class TextCursor {
  public:
-  /// Room for any float or index in decimal and a separator.
-  static constexpr std::size_t kMaxNumber = 24;
+  /// Room for any double or index in decimal, at most -2.2250738585072014e-308, and a separator.
+  static constexpr std::size_t kMaxNumber = 25;
 
   /// Takes over the buffer until finish(); `capacity` bytes must be enough for all that is written.
   TextCursor(ChunkBuffer& buffer, std::size_t capacity) : mBuffer(buffer) {

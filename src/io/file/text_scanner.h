@@ -62,7 +62,7 @@ class TextScanner {
     return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
   }
 
-  /// From 1.
+  /// Lines count from 1.
   [[nodiscard]] std::size_t lineNumber() const { return mLineNumber; }
   /// What comes after the line.
   [[nodiscard]] std::string_view rest() const { return mText; }

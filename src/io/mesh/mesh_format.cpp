@@ -5,13 +5,12 @@
 #include <string>
 
 #include "io/file/file_error.h"
+#include "io/file/suffix.h"
 
 namespace pdc::detail {
 
 MeshFormat meshFormat(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string suffix = suffixOf(path);
   if (suffix == ".ply") return MeshFormat::kPly;
   if (suffix == ".obj") return MeshFormat::kObj;
   if (suffix == ".stl") return MeshFormat::kStl;

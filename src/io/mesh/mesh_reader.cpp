@@ -10,6 +10,7 @@
 #include "io/mesh/off_reader.h"
 #include "io/mesh/ply_reader.h"
 #include "io/mesh/stl_reader.h"
+#include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc {
 namespace {
@@ -28,29 +29,20 @@ Mesh parse(detail::MeshFormat format, std::string_view bytes) {
   return detail::readOff(bytes);
 }
 
-/// Calls take(bytes) with the file's; errors name the file.
-template <typename Take>
-auto withBytes(const std::filesystem::path& path, Take&& take) {
+}  // namespace
+
+Mesh readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
+  const detail::MeshFormat format = detail::meshFormat(path);
   try {
     const Buffer<char> bytes = detail::readFile(path);
-    return take(std::string_view(bytes.data(), bytes.size()));
+    Mesh mesh = parse(format, {bytes.data(), bytes.size()});
+    if (!options.keepPolygons) triangulatePolygons(mesh);
+    return mesh;
   } catch (const Error& error) {
     throw detail::fileError(path, error.what());
   } catch (const std::bad_alloc&) {
     throw detail::fileError(path, "does not fit into memory");
   }
-}
-
-}  // namespace
-
-Mesh readMesh(const std::filesystem::path& path) {
-  const detail::MeshFormat format = detail::meshFormat(path);
-  return withBytes(path, [&](std::string_view bytes) { return parse(format, bytes); });
-}
-
-std::optional<Buffer<float>> readVertexProperty(const std::filesystem::path& path, const std::string& name) {
-  if (detail::meshFormat(path) != detail::MeshFormat::kPly) return std::nullopt;
-  return withBytes(path, [&](std::string_view bytes) { return detail::readPlyProperty(bytes, name); });
 }
 
 }  // namespace pdc

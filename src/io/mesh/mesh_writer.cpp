@@ -1,12 +1,11 @@
 #include "pdc/io/mesh/mesh_writer.h"
 
-#include <stdexcept>
-
 #include "io/file/atomic_file.h"
 #include "io/mesh/mesh_format.h"
 #include "io/mesh/obj_writer.h"
 #include "io/mesh/openmesh_writer.h"
 #include "io/mesh/ply_writer.h"
+#include "mesh/mesh_checks.h"
 
 namespace pdc {
 
@@ -16,9 +15,9 @@ void checkMeshPath(const std::filesystem::path& path) {
 }
 
 std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options) {
-  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-    throw std::invalid_argument("writeMesh: as many normals as positions, or none");
+  detail::checkSizes(mesh, "writeMesh", detail::FaceKinds::kAll);
   const detail::MeshFormat format = detail::meshFormat(path);
+  detail::checkIndices(mesh);
   detail::AtomicFile file(path);
   switch (format) {
     case detail::MeshFormat::kPly:

@@ -2,16 +2,16 @@
 
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 
 #include "io/file/atomic_file.h"
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
+#include "io/mesh/corner_count.h"
 
 namespace pdc::detail {
 namespace {
 
-/// About a megabyte of text per chunk.
+/// A chunk is about a megabyte of text.
 constexpr std::size_t kItemsPerChunk = 1 << 15;
 
 void writeVectors(const Buffer<Vec3f>& vectors, bool normals, AtomicFile& file) {
@@ -31,10 +31,10 @@ void writeVectors(const Buffer<Vec3f>& vectors, bool normals, AtomicFile& file) 
 }
 
 /// A normal has the number of its vertex.
-template <typename Face>
-void writeFaces(const Buffer<Face>& faces, bool normals, AtomicFile& file) {
+template <typename Faces>
+void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
-    TextCursor text(out, (end - begin) * (1 + 2 * std::tuple_size_v<Face>)*TextCursor::kMaxNumber);
+    TextCursor text(out, (end - begin + 2 * cornerCount(faces, begin, end)) * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
       text.put('f');
       for (const std::uint32_t v : faces[i]) {
@@ -62,6 +62,7 @@ void writeObj(const Mesh& mesh, AtomicFile& file) {
   writeVectors(mesh.normals, true, file);
   writeFaces(mesh.quads, normals, file);
   writeFaces(mesh.triangles, normals, file);
+  writeFaces(mesh.polygons, normals, file);
 }
 
 }  // namespace pdc::detail

@@ -6,7 +6,7 @@ namespace pdc::detail {
 
 class AtomicFile;
 
-/// v, vn (if the mesh has normals) and f lines; quads come before triangles. \throws Error
+/// v, vn (if the mesh has normals) and f lines; quads come before triangles, and those before polygons. \throws Error
 void writeObj(const Mesh& mesh, AtomicFile& file);
 
 }  // namespace pdc::detail

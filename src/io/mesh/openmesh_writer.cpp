@@ -13,7 +13,9 @@
 #include "io/file/atomic_file.h"
 #include "io/mesh/openmesh_quiet.h"
 #include "io/mesh/plain_exporter.h"
+#include "mesh/faces.h"
 #include "pdc/error.h"
+#include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc::detail {
 namespace {
@@ -23,7 +25,7 @@ using OpenMesh::VertexHandle;
 
 OpenMesh::Vec3f toOpenMesh(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-/// Shows a Mesh to OpenMesh's writers; with `split`, quads as their two triangles.
+/// Shows a Mesh to OpenMesh's writers: its faces or, with `split`, its triangles; then it must have no polygons.
 class SoupExporter final : public PlainExporter {
  public:
   using PlainExporter::normal;
@@ -31,22 +33,18 @@ class SoupExporter final : public PlainExporter {
   SoupExporter(const Mesh& mesh, bool split) : mMesh(mesh), mSplit(split) {}
 
   size_t n_vertices() const override { return mMesh.positions.size(); }
-  size_t n_faces() const override { return (mSplit ? 2 : 1) * mMesh.quads.size() + mMesh.triangles.size(); }
+  size_t n_faces() const override { return mSplit ? triangleCount(mMesh) : faceCount(mMesh); }
   OpenMesh::Vec3f point(VertexHandle v) const override { return toOpenMesh(position(v)); }
   bool has_face_normals() const override { return true; }
 
   unsigned int get_vhandles(FaceHandle f, std::vector<VertexHandle>& corners) const override {
     corners.clear();
     const auto i = static_cast<std::size_t>(f.idx());
-    const std::size_t fromQuads = (mSplit ? 2 : 1) * mMesh.quads.size();
     const auto add = [&](std::uint32_t v) { corners.emplace_back(static_cast<int>(v)); };
-    if (i >= fromQuads) {
-      for (const std::uint32_t v : mMesh.triangles[i - fromQuads]) add(v);
-    } else if (mSplit) {
-      const Quad& quad = mMesh.quads[i / 2];
-      for (const std::size_t k : {std::size_t{0}, i % 2 + 1, i % 2 + 2}) add(quad[k]);
+    if (mSplit) {
+      for (const std::uint32_t v : triangle(mMesh, i)) add(v);
     } else {
-      for (const std::uint32_t v : mMesh.quads[i]) add(v);
+      for (const std::uint32_t v : face(mMesh, i)) add(v);
     }
     return static_cast<unsigned int>(corners.size());
   }
@@ -70,7 +68,7 @@ class SoupExporter final : public PlainExporter {
   bool mSplit;
 };
 
-/// A stream's way into an AtomicFile.
+/// Takes what a stream writes into an AtomicFile.
 class FileBuffer final : public std::streambuf {
  public:
   explicit FileBuffer(AtomicFile& file) : mFile(file), mBytes(1 << 20) { reset(); }
@@ -113,7 +111,11 @@ void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, c
 }  // namespace
 
 void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii) {
-  write(mesh, file, "stl", true, ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary);
+  const auto options = ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary;
+  if (mesh.polygons.empty()) return write(mesh, file, "stl", true, options);
+  Mesh triangulated = mesh;
+  triangulatePolygons(triangulated);
+  write(triangulated, file, "stl", true, options);
 }
 
 void writeOff(const Mesh& mesh, AtomicFile& file) { write(mesh, file, "off", false, OpenMesh::IO::Options::Default); }

@@ -7,10 +7,10 @@ namespace pdc::detail {
 class AtomicFile;
 
 /// Through OpenMesh's writers, straight from the faces as they are, so that meshes that are no manifolds can be written
-/// too. Triangles only; text or binary. The normal of a triangle without area is zero. \throws Error if there are more
-/// faces than OpenMesh can count (2^31 - 1).
+/// too. Quads and polygons become triangles; text or binary. The normal of a triangle without area is zero. \throws
+/// Error if there are more faces than OpenMesh can count (2^31 - 1).
 void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii);
-/// Text; quads come before triangles. \throws Error as above.
+/// Text; quads come before triangles, and those before polygons. \throws Error as above.
 void writeOff(const Mesh& mesh, AtomicFile& file);
 
 }  // namespace pdc::detail

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -109,24 +110,9 @@ class Parser {
 
 }  // namespace
 
-std::size_t plySize(PlyType type) {
-  switch (type) {
-    case PlyType::kInt8:
-    case PlyType::kUint8:
-      return 1;
-    case PlyType::kInt16:
-    case PlyType::kUint16:
-      return 2;
-    case PlyType::kInt32:
-    case PlyType::kUint32:
-    case PlyType::kFloat32:
-      return 4;
-    case PlyType::kFloat64:
-      return 8;
-    case PlyType::kNone:
-      break;
-  }
-  return 0;
+const char* plyTypeName(PlyType type) {
+  constexpr std::array kNames{"", "char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
+  return kNames[static_cast<std::size_t>(type)];
 }
 
 bool plyIsReal(PlyType type) { return type == PlyType::kFloat32 || type == PlyType::kFloat64; }

@@ -9,14 +9,14 @@ namespace pdc::detail {
 
 enum class PlyType { kNone, kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
-/// In bytes.
-[[nodiscard]] std::size_t plySize(PlyType type);
+/// What headers call it: "char", "uchar", "short", "ushort", "int", "uint", "float", "double"; "" for kNone.
+[[nodiscard]] const char* plyTypeName(PlyType type);
 [[nodiscard]] bool plyIsReal(PlyType type);
 
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::kNone;
-  PlyType countType = PlyType::kNone;  ///< Of a list; kNone for a single value.
+  PlyType countType = PlyType::kNone;  ///< The type of a list's length; kNone for a single value.
 
   [[nodiscard]] bool isList() const { return countType != PlyType::kNone; }
 };

@@ -8,10 +8,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "io/file/text_scanner.h"
+#include "io/mesh/ply_columns.h"
 #include "io/mesh/ply_header.h"
 #include "io/mesh/soup_builder.h"
 #include "pdc/error.h"
@@ -19,7 +24,7 @@
 namespace pdc::detail {
 namespace {
 
-/// Numbers of the body one after the other, as double: it holds all of PLY's types.
+/// Reads the numbers of the body one after the other, as double: it holds all of PLY's types.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view body, bool swap) : mBody(body), mSwap(swap) {}
@@ -108,35 +113,14 @@ class BodyReader {
     return mSoup.finish();
   }
 
-  std::optional<Buffer<float>> readProperty(const PlyHeader& header, std::string_view name) {
-    for (const PlyElement& element : header.elements) {
-      const bool wanted = element.name == "vertex" && std::any_of(element.properties.begin(), element.properties.end(),
-                                                                  [&](const auto& p) { return isSingle(p, name); });
-      Buffer<float> values;
-      for (std::size_t i = 0; i < element.count; ++i)
-        for (const PlyProperty& property : element.properties) {
-          if (wanted && isSingle(property, name)) {
-            values.push_back(static_cast<float>(mNumbers.next(property.type)));
-          } else {
-            skip(property);
-          }
-        }
-      if (wanted) return values;
-    }
-    return std::nullopt;
-  }
-
  private:
-  static bool isSingle(const PlyProperty& property, std::string_view name) {
-    return !property.isList() && property.name == name;
-  }
-
   void skip(const PlyProperty& property) {
     const double count = property.isList() ? mNumbers.next(property.countType) : 1;
     for (double i = 0; i < count; ++i) mNumbers.next(property.type);
   }
 
   void readVertices(const PlyElement& element) {
+    if (std::exchange(mHasVertices, true)) throw Error("a PLY file with two elements named vertex");
     constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "nx", "ny", "nz"};
     constexpr std::size_t kOther = kNames.size();
     std::vector<std::size_t> places;
@@ -152,18 +136,37 @@ class BodyReader {
     if (!hasAll(0)) throw Error("PLY vertices need x, y and z, each once");
     const bool normals = hasAll(3);
 
+    PlyColumns columns = plyColumns(element.properties);
     std::array<double, kNames.size()> v{};
     for (std::size_t i = 0; i < element.count; ++i) {
       for (std::size_t k = 0; k < places.size(); ++k) {
-        if (places[k] == kOther) {
-          skip(element.properties[k]);
-        } else {
+        if (places[k] != kOther) {
           v[places[k]] = mNumbers.next(element.properties[k].type);
+        } else if (columns.propertyOf[k] != PlyColumns::kNoProperty) {
+          keep(mNumbers.next(element.properties[k].type), columns.properties[columns.propertyOf[k]], i);
+        } else {
+          skip(element.properties[k]);
         }
       }
       mSoup.addVertex(vecCast<float>(Vec3d{v[0], v[1], v[2]}));
       if (normals) mSoup.addNormal(vecCast<float>(Vec3d{v[3], v[4], v[5]}));
     }
+    mSoup.setProperties(std::move(columns.properties));
+  }
+
+  /// Appends a number of vertex i.
+  static void keep(double number, VertexProperty& property, std::size_t i) {
+    std::visit(
+        [&]<typename Number>(Buffer<Number>& values) {
+          if constexpr (std::is_integral_v<Number>) {
+            using Limits = std::numeric_limits<Number>;
+            if (!(number >= Limits::min() && number <= Limits::max() && number == std::floor(number)))
+              throw Error(fmt::format("vertex {}: \"{}\" is {}, which is no {}", i, property.name, number,
+                                      plyTypeName(plyType(property))));
+          }
+          values.push_back(static_cast<Number>(number));
+        },
+        property.values);
   }
 
   void readFaces(const PlyElement& element) {
@@ -195,27 +198,17 @@ class BodyReader {
 
   Numbers mNumbers;
   SoupBuilder mSoup;
+  bool mHasVertices = false;
 };
-
-/// Calls read(BodyReader) for the numbers as the header says they are written.
-template <typename Read>
-auto readBody(const PlyHeader& header, Read&& read) {
-  if (header.format == PlyFormat::kAscii) return read(BodyReader(TextNumbers(header.body)));
-  const bool little = header.format == PlyFormat::kLittleEndian;
-  const bool swap = little != (std::endian::native == std::endian::little);
-  return read(BodyReader(BinaryNumbers(header.body, swap)));
-}
 
 }  // namespace
 
 Mesh readPly(std::string_view bytes) {
   const PlyHeader header = parsePlyHeader(bytes);
-  return readBody(header, [&](auto reader) { return reader.read(header); });
-}
-
-std::optional<Buffer<float>> readPlyProperty(std::string_view bytes, std::string_view name) {
-  const PlyHeader header = parsePlyHeader(bytes);
-  return readBody(header, [&](auto reader) { return reader.readProperty(header, name); });
+  if (header.format == PlyFormat::kAscii) return BodyReader(TextNumbers(header.body)).read(header);
+  const bool little = header.format == PlyFormat::kLittleEndian;
+  const bool swap = little != (std::endian::native == std::endian::little);
+  return BodyReader(BinaryNumbers(header.body, swap)).read(header);
 }
 
 }  // namespace pdc::detail

@@ -11,7 +11,8 @@ class AtomicFile;
 /// "int" if it holds every index of a mesh with that many vertices, else "uint".
 [[nodiscard]] const char* plyIndexType(std::size_t vertices);
 
-/// Binary little-endian or text; quads come before triangles. \throws Error
+/// Binary little-endian or text; quads come before triangles, and those before polygons. \throws Error;
+/// std::invalid_argument for names that checkPlyNames refuses.
 void writePly(const Mesh& mesh, AtomicFile& file, bool ascii);
 
 }  // namespace pdc::detail

@@ -20,10 +20,14 @@ void SoupBuilder::addFace(std::span<const std::int64_t> corners) {
     }
   }
   const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(corners[i]); };
-  if (corners.size() == 4) {
+  if (corners.size() == 3) {
+    mMesh.triangles.push_back({at(0), at(1), at(2)});
+  } else if (corners.size() == 4) {
     mMesh.quads.push_back({at(0), at(1), at(2), at(3)});
   } else {
-    for (std::size_t i = 2; i < corners.size(); ++i) mMesh.triangles.push_back({at(0), at(i - 1), at(i)});
+    mPolygon.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i) mPolygon.push_back(at(i));
+    mMesh.polygons.add(mPolygon);
   }
   ++mFaces;
 }

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "pdc/mesh/mesh.h"
 
@@ -13,7 +15,8 @@ class SoupBuilder {
  public:
   void addVertex(const Vec3f& position) { mMesh.positions.push_back(position); }
   void addNormal(const Vec3f& normal) { mMesh.normals.push_back(normal); }
-  /// Three corners make a triangle, four a quad, more a fan of triangles. The vertices may be added later.
+  void setProperties(std::vector<VertexProperty> properties) { mMesh.properties = std::move(properties); }
+  /// Three corners make a triangle, four a quad, more a polygon. The vertices may be added later.
   /// \throws Error for fewer than three corners or an index that no mesh can have.
   void addFace(std::span<const std::int64_t> corners);
   [[nodiscard]] std::size_t vertices() const { return mMesh.positions.size(); }
@@ -25,6 +28,7 @@ class SoupBuilder {
 
  private:
   Mesh mMesh;
+  std::vector<std::uint32_t> mPolygon;  ///< Kept for its memory.
   std::size_t mFaces = 0;
   std::int64_t mLargestIndex = -1;
   std::size_t mFaceOfLargestIndex = 0;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/suffix.h"
 #include "io/file/text_scanner.h"
 #include "pdc/error.h"
 
@@ -33,13 +34,6 @@ Buffer<Vec3f> binaryCorners(std::string_view bytes) {
     std::memcpy(&corners[3 * i], bytes.data() + kHeaderBytes + i * kFacetBytes + sizeof(Vec3f), 3 * sizeof(Vec3f));
   });
   return corners;
-}
-
-std::string lowerCase(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 Buffer<Vec3f> textCorners(std::string_view text) {

@@ -145,20 +145,6 @@ TEST(ReadMesh, PlyWithOtherElementsListsCommentsAndCarriageReturns) {
   EXPECT_EQ(mesh.normals[3], (Vec3f{0, 1, 0}));
 }
 
-TEST(ReadMesh, PlyPropertiesOfVertices) {
-  const TemporaryFolder folder;
-  writeContents(folder / "a.ply",
-                "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
-                "property double confidence\nproperty float x\nproperty float y\nproperty float z\n"
-                "property list uchar int tags\nend_header\n3 0 1 2\n0.5 0 0 0 0\n0.25 1 0 0 2 7 8\n1 0 1 0 1 9\n");
-  EXPECT_EQ(readVertexProperty(folder / "a.ply", "confidence"), (Buffer<float>{0.5F, 0.25F, 1}));
-  EXPECT_EQ(readVertexProperty(folder / "a.ply", "y"), (Buffer<float>{0, 0, 1}));
-  for (const char* name : {"error", "tags", "vertex_indices"}) EXPECT_FALSE(readVertexProperty(folder / "a.ply", name));
-  writeContents(folder / "a.off", "OFF\n0 0 0\n");
-  EXPECT_FALSE(readVertexProperty(folder / "a.off", "confidence"));
-  EXPECT_THROW(static_cast<void>(readVertexProperty(folder / "none.ply", "confidence")), Error);
-}
-
 TEST(ReadMesh, PlyWithFacesFirst) {
   const Mesh mesh = readText(
       "a.ply", "ply\nformat ascii 1.0\n" + kPlyFaces + kPlyVertices + "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n");
@@ -177,6 +163,25 @@ TEST(ReadMesh, ObjWithAllItsWaysToNameACorner) {
   EXPECT_EQ(mesh.quads, (Buffer<Quad>{{0, 1, 2, 3}}));
   EXPECT_EQ(mesh.triangles, (Buffer<Triangle>{{0, 1, 2}, {0, 1, 3}, {0, 1, 2}, {0, 2, 3}, {0, 3, 0}}));
   EXPECT_TRUE(mesh.normals.empty()) << "normals that are not the vertices' own";
+}
+
+TEST(ReadMesh, FacesOfManyCornersBecomeFansAfterTheOthersUnlessTheyAreKept) {
+  const TemporaryFolder folder;
+  writeContents(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\nf 1 2 5\nf 2 3 4 5\n");
+  writeContents(folder / "a.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n3 0 1 4\n4 1 2 3 4\n");
+  writeContents(folder / "a.ply",
+                "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n3 0 1 4\n4 1 2 3 4\n");
+  for (const char* name : {"a.obj", "a.off", "a.ply"}) {
+    const Mesh fans = readMesh(folder / name);
+    EXPECT_EQ(fans.triangles, (Buffer<Triangle>{{0, 1, 4}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}})) << name;
+    EXPECT_TRUE(fans.polygons.empty()) << name;
+    const Mesh kept = readMesh(folder / name, {.keepPolygons = true});
+    EXPECT_EQ(kept.triangles, (Buffer<Triangle>{{0, 1, 4}})) << name;
+    EXPECT_EQ(kept.polygons, (Polygons{.corners = {0, 1, 2, 3, 4}, .starts = {0}})) << name;
+    for (const Mesh& mesh : {fans, kept}) EXPECT_EQ(mesh.quads, (Buffer<Quad>{{1, 2, 3, 4}})) << name;
+  }
 }
 
 TEST(ReadMesh, OffWithCommentsColoursAndNormals) {
@@ -270,6 +275,12 @@ TEST(ReadMesh, DamagedPlyIsAnError) {
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty vec3 x\n" + end + "1\n"), "line 4: malformed property");
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty float x\n" + end + "1\n"),
             "PLY vertices need x, y and z, each once");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyVertices + end + vertices + vertices),
+            "a PLY file with two elements named vertex");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + "property uchar red\n" + end + "0 0 0 255\n0 0 0 256\n0 0 0 1\n"),
+            "vertex 1: \"red\" is 256, which is no uchar");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + "property int k\n" + end + "0 0 0 0.5\n0 0 0 0\n0 0 0 0\n"),
+            "vertex 0: \"k\" is 0.5, which is no int");
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 4000000000\n" + end + "1\n"),
             "PLY element vertex has no properties");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 1 3\n"),

@@ -13,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "io/file/temporary_folder.h"
 #include "io/mesh/ply_writer.h"
@@ -137,25 +138,6 @@ TEST(WriteMesh, TextPlyByteForByte) {
             "4 0 1 2 3\n3 1 0 4\n");
 }
 
-TEST(WriteMesh, PropertiesOfVerticesComeBack) {
-  const TemporaryFolder folder;
-  Mesh mesh = randomMesh(17, 9, true);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    mesh.confidence.push_back(1 / (1 + 0.1F * static_cast<float>(i)));
-    mesh.ranks.push_back(static_cast<std::uint8_t>(1 + i % 3));
-  }
-  for (const bool ascii : {false, true}) {
-    const auto path = folder / (ascii ? "text.ply" : "binary.ply");
-    writeMesh(mesh, path, {.ascii = ascii});
-    const Mesh read = readMesh(path);
-    expectSameBits(read.positions, mesh.positions);
-    expectSameBits(read.normals, mesh.normals);
-    EXPECT_EQ(read.quads, mesh.quads);
-    EXPECT_EQ(readVertexProperty(path, "confidence"), mesh.confidence);
-    EXPECT_EQ(readVertexProperty(path, "rank"), Buffer<float>(mesh.ranks.begin(), mesh.ranks.end()));
-  }
-}
-
 TEST(WriteMesh, ObjByteForByte) {
   const TemporaryFolder folder;
   writeMesh(tinyMesh(), folder / "a.obj");
@@ -256,6 +238,51 @@ TEST(WriteMesh, NonManifoldMeshGoesThroughOpenMesh) {
             "OFF\n5 4 0\n0 0 0\n0 0 1\n1 0 0\n-1 1 0\n-1 -1 0\n3 0 1 2 \n3 1 0 3 \n3 0 1 4 \n3 0 1 4 \n");
 }
 
+/// Polygons of 5 to 304 corners beside quads and triangles.
+Mesh meshWithPolygons(std::uint32_t polygons) {
+  Mesh mesh = randomMesh(40, 30, false);
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t i = 0; i < polygons; ++i) {
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t k = 0; k < 5 + i; ++k) corners.push_back((7 * i + k) % vertices);
+    mesh.polygons.add(corners);
+  }
+  return mesh;
+}
+
+TEST(WriteMesh, PolygonsComeBack) {
+  const TemporaryFolder folder;
+  for (const std::uint32_t polygons : {3u, 251u, 252u, 300u})  // The last but one has 255 and 256 corners.
+    for (const char* name : {"a.ply", "a.obj", "a.off"})
+      for (const bool ascii : {false, true}) {
+        SCOPED_TRACE(testing::Message() << name << " " << polygons);
+        const Mesh mesh = meshWithPolygons(polygons);
+        writeMesh(mesh, folder / name, {.ascii = ascii});
+        const Mesh read = readMesh(folder / name, {.keepPolygons = true});
+        expectSameBits(read.positions, mesh.positions);
+        EXPECT_EQ(read.quads, mesh.quads);
+        EXPECT_EQ(read.triangles, mesh.triangles);
+        EXPECT_EQ(read.polygons, mesh.polygons);
+      }
+}
+
+TEST(WriteMesh, CountsOfCornersAreBytesAsLongAsTheyFit) {
+  const TemporaryFolder folder;
+  writeMesh(meshWithPolygons(251), folder / "a.ply");
+  EXPECT_NE(contentsOf(folder / "a.ply").find("property list uchar int vertex_indices"), std::string::npos);
+  writeMesh(meshWithPolygons(252), folder / "a.ply");
+  EXPECT_NE(contentsOf(folder / "a.ply").find("property list uint int vertex_indices"), std::string::npos);
+}
+
+TEST(WriteMesh, PolygonsAreTrianglesInStl) {
+  const TemporaryFolder folder;
+  Mesh mesh = tinyMesh();
+  mesh.polygons.add(std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  writeMesh(mesh, folder / "a.stl");
+  EXPECT_EQ(readMesh(folder / "a.stl").triangles,
+            (Buffer<Triangle>{{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+}
+
 TEST(WriteMesh, EmptyMesh) {
   const TemporaryFolder folder;
   for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
@@ -306,6 +333,14 @@ TEST(WriteMesh, MistakesOfTheCaller) {
   EXPECT_THROW(writeMesh(mesh, folder / "missing/a.ply"), Error);
   mesh.normals.resize(3);
   EXPECT_THROW(writeMesh(mesh, folder / "a.ply"), std::invalid_argument);
+  mesh.normals.clear();
+  mesh.properties = {{"confidence", 1, Buffer<float>(4)}};
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
+    EXPECT_THROW(writeMesh(mesh, folder / name), std::invalid_argument) << name;
+  mesh.properties.clear();
+  mesh.quads[0][2] = 5;
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
+    EXPECT_THROW(writeMesh(mesh, folder / name), Error) << name;
   EXPECT_EQ(folder.entries(), 0u);
 }
 

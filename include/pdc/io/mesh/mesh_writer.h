@@ -15,13 +15,17 @@ struct MeshWriteOptions {
 /// Call it before long work. Makes no file.
 void checkMeshPath(const std::filesystem::path& path);
 
-/// Writes by suffix: .ply (binary little-endian unless ascii; float x y z, and what the mesh has of float nx ny nz,
-/// float confidence and uchar rank; int or, above 2^31 vertices, uint indices), .obj (shortest decimal that reads back
-/// to the same float; v, vn, f), and .stl and .off through OpenMesh (.stl as triangles).
+/// Writes by suffix: .ply (binary little-endian unless ascii; float x y z, float nx ny nz if the mesh has normals, and
+/// its properties in their order and types, vectors as NAME_x NAME_y NAME_z NAME_w; int or, above 2^31 vertices, uint
+/// indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off through OpenMesh.
+/// Quads come before triangles, and those before polygons; in .stl all are triangles. Only .ply holds properties; the
+/// others leave them out.
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
-/// and renamed. On any error the temporary file is removed, whatever stood under the name stays, and Error is thrown.
-/// \returns bytes written.
+/// and renamed. On any error the temporary file is removed and whatever stood under the name stays.
+/// \returns bytes written. \throws Error if the file cannot be written or a face names a vertex that does not exist;
+/// std::invalid_argument for a mesh whose arrays do not fit together, and for a .ply whose properties' names are empty,
+/// hold blanks or control characters, or come twice, x, y, z, nx, ny and nz included.
 std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options = {});
 
 }  // namespace pdc
