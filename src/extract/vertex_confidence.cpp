@@ -12,6 +12,7 @@
 #include "extract/vertices/patch_samples.h"
 #include "mesh/faces.h"
 #include "parallel/block_progress.h"
+#include "parallel/isolated.h"
 #include "pdc/math/solvers.h"
 #include "sample/cell_edges.h"
 
@@ -28,10 +29,10 @@ constexpr double kPlaneError = 0.4;
 
 constexpr double square(double x) { return x * x; }
 
-/// What the planes of a vertex say of it.
-struct Rating {
+/// What the planes of a vertex tell of it.
+struct VertexEstimate {
   Vec3f normal{};      ///< The direction that they determine best, outwards; zero where there are none.
-  float variance = 0;  ///< Of the solution where they determine it, in voxels squared.
+  float variance = 0;  ///< That of the solution where they determine it, in voxels squared.
   std::uint8_t rank = 1;
   /// Several planes from distances meet there: how far it is from its neighbours' mean says how the crease lies.
   bool onCrease = false;
@@ -53,9 +54,9 @@ struct Planes {
   }
 };
 
-Rating rate(const Planes& planes) {
-  Rating rating;
-  if (planes.size == 0) return rating;
+VertexEstimate estimate(const Planes& planes) {
+  VertexEstimate result;
+  if (planes.size == 0) return result;
   SymMat3<double> A{};
   Vec3d mean{};
   double squares = 0;
@@ -73,29 +74,28 @@ Rating rate(const Planes& planes) {
     inverses += 1 / value;
   }
   const double seen = planes.size > rank ? squares / (planes.size - rank) : 0;
-  rating.variance = static_cast<float>((seen + planes.known) * inverses);
-  rating.rank = static_cast<std::uint8_t>(std::max(rank, 1));
-  rating.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
-  return rating;
+  result.variance = static_cast<float>((seen + planes.known) * inverses);
+  result.rank = static_cast<std::uint8_t>(std::max(rank, 1));
+  result.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
+  return result;
 }
 
-/// Rates the vertices of one block after another. For one thread; large: keep it off the stack.
-class BlockRater {
+/// Estimates the vertices of one block after another. For one thread; large: keep it off the stack.
+class BlockEstimator {
  public:
   /// \param normalNoise of the source's normals: noise of values turns normals by about as much as it moves crossings,
   /// in voxels.
-  BlockRater(const HermiteSource& source, double normalNoise)
+  BlockEstimator(const HermiteSource& source, double normalNoise)
       : mMap(source.map()),
         mSampler(source),
         mKnowsSigma(source.knowledge().noise == SourceKnowledge::Noise::kSigma),
         mNormalVariance(square(normalNoise)) {}
 
-  void run(const Coord& block, const BlockSigns& signs, const BlockTopology& topology, const Mesh& mesh,
-           Buffer<Rating>& ratings) {
-    const EdgeIndex edges(signs);
-    const Vec3d origin = blockOrigin(block);
+  void run(const SurfaceBlock& block, const BlockTopology& topology, const Mesh& mesh,
+           Buffer<VertexEstimate>& estimates) {
+    const Vec3d origin = blockOrigin(block.coord);
     const CellMetric metric = blockMetric(mMap, origin);
-    mSampler.run({block, signs, edges}, topology);
+    mSampler.run(block, topology);
     const PatchList& patches = mSampler.patches();
     const FeaturePlanes& features = mSampler.features();
     const Mat3d toWorld = inverse(metric.M).transposed();
@@ -112,17 +112,17 @@ class BlockRater {
         for (const FeaturePlanes::Plane& p : features.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
       } else {
-        planes.known = mKnowsSigma ? meanVariance(patches[i], edges) : mNormalVariance;
-        addCrossings(patches[i], edges, add);
+        planes.known = mKnowsSigma ? meanVariance(patches[i], block.edges) : mNormalVariance;
+        addCrossings(patches[i], block.edges, add);
       }
-      ratings[vertex] = rate(planes);
-      ratings[vertex].onCrease = feature != nullptr && feature->count > 1;
+      estimates[vertex] = estimate(planes);
+      estimates[vertex].onCrease = feature != nullptr && feature->count > 1;
     }
   }
 
  private:
-  /// Of the patch's crossings. A normal's noise is that of the values over the gradient, near enough, and that of the
-  /// distance too.
+  /// The mean variance of the patch's normals. That of the distances is nearly the same: either is the noise of the
+  /// values over the gradient.
   [[nodiscard]] double meanVariance(const SurfacePatch& patch, const EdgeIndex& edges) const {
     double sum = 0;
     forEachEdge(patch, edges, [&](int /*e*/, int i) { sum += square(mSampler.noise()->sigma[i]); });
@@ -146,37 +146,42 @@ class BlockRater {
   const double mNormalVariance;
 };
 
-/// Calls visit(a, b) for all ordered pairs of vertices of each face.
+/// Calls visit(a, b) for all ordered pairs of vertices of each face. \throws Cancelled.
 template <typename Visit>
-void forEachPair(const Mesh& mesh, Visit&& visit) {
-  for (std::size_t f = 0; f < faceCount(mesh); ++f)
+void forEachPair(const Mesh& mesh, const Monitor& monitor, Visit&& visit) {
+  constexpr std::size_t kFacesPerLook = 4096;
+  for (std::size_t f = 0; f < faceCount(mesh); ++f) {
+    if (f % kFacesPerLook == 0) monitor.throwIfStopped();
     for (const std::uint32_t a : face(mesh, f))
       for (const std::uint32_t b : face(mesh, f))
         if (a != b) visit(a, b);
-}
-
-/// What certifying added has no planes of its own: gets its neighbours' mean normal and their largest variance.
-void rateAdded(const Mesh& mesh, std::size_t solved, Buffer<Rating>& ratings) {
-  std::fill(ratings.begin() + static_cast<std::ptrdiff_t>(solved), ratings.end(), Rating{});
-  if (solved == ratings.size()) return;
-  forEachPair(mesh, [&](std::uint32_t a, std::uint32_t b) {
-    if (a < solved || b >= solved) return;
-    ratings[a].normal += ratings[b].normal;
-    ratings[a].variance = std::max(ratings[a].variance, ratings[b].variance);
-  });
-  for (std::size_t i = solved; i < ratings.size(); ++i) {
-    const float l = length(ratings[i].normal);
-    if (l > 0) ratings[i].normal *= 1 / l;
   }
 }
 
-/// Distances of vertices from their neighbours' means along their normals, in world units; neighbours count by how well
+/// Vertices that certifying added have no planes of their own: each gets its neighbours' mean normal and their largest
+/// variance.
+void estimateAdded(const Mesh& mesh, std::size_t solved, const Monitor& monitor, Buffer<VertexEstimate>& estimates) {
+  std::fill(estimates.begin() + static_cast<std::ptrdiff_t>(solved), estimates.end(), VertexEstimate{});
+  if (solved == estimates.size()) return;
+  forEachPair(mesh, monitor, [&](std::uint32_t a, std::uint32_t b) {
+    if (a < solved || b >= solved) return;
+    estimates[a].normal += estimates[b].normal;
+    estimates[a].variance = std::max(estimates[a].variance, estimates[b].variance);
+  });
+  for (std::size_t i = solved; i < estimates.size(); ++i) {
+    const float l = length(estimates[i].normal);
+    if (l > 0) estimates[i].normal *= 1 / l;
+  }
+}
+
+/// The distance of each vertex from its neighbours' mean along its normal, in world units; neighbours count by how well
 /// their normals agree.
-std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
-  std::vector<double> sum(ratings.size(), 0), weight(ratings.size(), 0);
-  forEachPair(mesh, [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3d n = vecCast<double>(ratings[a].normal);
-    const double c = std::max(dot(n, vecCast<double>(ratings[b].normal)), 0.0), c2 = c * c, c4 = c2 * c2;
+std::vector<double> distancesFromNeighbours(const Mesh& mesh, const Buffer<VertexEstimate>& estimates,
+                                            const Monitor& monitor) {
+  std::vector<double> sum(estimates.size(), 0), weight(estimates.size(), 0);
+  forEachPair(mesh, monitor, [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3d n = vecCast<double>(estimates[a].normal);
+    const double c = std::max(dot(n, vecCast<double>(estimates[b].normal)), 0.0), c2 = c * c, c4 = c2 * c2;
     sum[a] += c4 * c4 * dot(n, vecCast<double>(mesh.positions[a]) - vecCast<double>(mesh.positions[b]));
     weight[a] += c4 * c4;
   });
@@ -184,20 +189,21 @@ std::vector<double> heights(const Mesh& mesh, const Buffer<Rating>& ratings) {
   return sum;
 }
 
-Buffer<float> confidenceOf(const Mesh& mesh, const Buffer<Rating>& ratings, double voxelSize) {
-  const std::vector<double> height = heights(mesh, ratings);
-  Buffer<float> confidence(ratings.size());
-  for (std::size_t i = 0; i < ratings.size(); ++i) {
-    const double seen = ratings[i].onCrease ? 0 : height[i] / voxelSize;
-    const double deviation = std::hypot(seen, std::sqrt(double{ratings[i].variance}));
+Buffer<float> confidenceOf(const Mesh& mesh, const Buffer<VertexEstimate>& estimates, double voxelSize,
+                           const Monitor& monitor) {
+  const std::vector<double> fromNeighbours = distancesFromNeighbours(mesh, estimates, monitor);
+  Buffer<float> confidence(estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const double seen = estimates[i].onCrease ? 0 : fromNeighbours[i] / voxelSize;
+    const double deviation = std::hypot(seen, std::sqrt(double{estimates[i].variance}));
     confidence[i] = static_cast<float>(1 / (1 + deviation / kHalfConfidence));
   }
   return confidence;
 }
 
-Buffer<std::uint8_t> ranksOf(const Buffer<Rating>& ratings) {
-  Buffer<std::uint8_t> ranks(ratings.size());
-  for (std::size_t i = 0; i < ratings.size(); ++i) ranks[i] = ratings[i].rank;
+Buffer<std::uint8_t> ranksOf(const Buffer<VertexEstimate>& estimates) {
+  Buffer<std::uint8_t> ranks(estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) ranks[i] = estimates[i].rank;
   return ranks;
 }
 
@@ -206,20 +212,24 @@ Buffer<std::uint8_t> ranksOf(const Buffer<Rating>& ratings) {
 void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
                          const Monitor& monitor) {
   const auto& [source, blocks, topology] = surface;
-  Buffer<Rating> ratings(mesh.positions.size());
-  tbb::enumerable_thread_specific<std::unique_ptr<BlockRater>> raters(
-      [&] { return std::make_unique<BlockRater>(source, normalNoise); });
+  Buffer<VertexEstimate> estimates(mesh.positions.size());
+  tbb::enumerable_thread_specific<std::unique_ptr<BlockEstimator>> estimators(
+      [&] { return std::make_unique<BlockEstimator>(source, normalNoise); });
   BlockProgress progress(monitor, "confidence", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
-    BlockRater& rater = *raters.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      rater.run(blocks.coords[i], blocks.signs[i], topology.blocks[i], mesh, ratings);
+    isolated([&] {
+      BlockEstimator& estimator = *estimators.local();
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const EdgeIndex edges(blocks.signs[i]);
+        estimator.run({blocks.coords[i], blocks.signs[i], edges}, topology.blocks[i], mesh, estimates);
+      }
+    });
     progress.advance(range.size());
   });
-  rateAdded(mesh, topology.vertexCount, ratings);
+  estimateAdded(mesh, topology.vertexCount, monitor, estimates);
   if (options.confidence)
-    mesh.properties.push_back({"confidence", 1, confidenceOf(mesh, ratings, source.map().voxelSize())});
-  if (options.ranks) mesh.properties.push_back({"rank", 1, ranksOf(ratings)});
+    mesh.properties.push_back({"confidence", 1, confidenceOf(mesh, estimates, source.map().voxelSize(), monitor)});
+  if (options.ranks) mesh.properties.push_back({"rank", 1, ranksOf(estimates)});
 }
 
 }  // namespace pdc::detail

@@ -9,7 +9,7 @@
 
 namespace pdc::detail {
 
-/// From block coordinate to position in a list of distinct blocks: an open-addressing hash table, filled once and then
+/// Finds the position of a block coordinate in a list of distinct blocks: an open-addressing hash table, filled once and then
 /// read from many threads.
 class BlockIndex {
  public:

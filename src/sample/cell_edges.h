@@ -21,7 +21,7 @@ struct CellEdge {
   int slot;       ///< In EdgeIndex, from that of the cell's lowest corner along x.
 };
 
-/// By number.
+/// The edges of a cell by number.
 inline constexpr auto kCellEdge = [] {
   std::array<CellEdge, kEdges> edges{};
   for (int e = 0; e < kEdges; ++e) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <string_view>
 
 #include "eval/inputs.h"
 #include "eval/metrics.h"
@@ -132,6 +134,17 @@ TEST_F(VertexConfidence, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
     }
     EXPECT_GT(eval::rankCorrelation(doubt, error), least);
   }
+}
+
+// The last blocks are sampled, but the neighbours of the vertices are still to be looked at.
+TEST_F(VertexConfidence, StopsAfterSamplingToo) {
+  const FieldSource source(sphere({}, 0.8), {.box = {{-1, -1, -1}, {1, 1, 1}}, .voxelSize = 0.05});
+  std::atomic<bool> stop = false;
+  const auto progress = [&stop](const char* stage, double share) {
+    if (std::string_view(stage) == "confidence" && share == 1) stop = true;
+  };
+  EXPECT_THROW(static_cast<void>(contour(source, {.confidence = true}, nullptr, {.progress = progress, .stop = &stop})),
+               Cancelled);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ class EdgeIndex {
   [[nodiscard]] static constexpr int slot(Axis axis, int x, int y, int z) {
     return ((axis * kBlockPoints + x) * kBlockPoints + y) * kBlockPoints + z;
   }
-  /// By slot; meaningful only for edges that change sign.
+  /// The numbers by slot; meaningful only for edges that change sign.
   [[nodiscard]] const std::uint16_t* numbers() const { return mNumber.data(); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace pdc {
 
-/// From lattice (index) space to world space: affine, or any smooth map with its Jacobian (a frustum).
+/// A map from lattice (index) space to world space: affine, or any smooth map with its Jacobian (a frustum).
 class LatticeMap {
  public:
   using PositionFunction = std::function<Vec3d(const Vec3d&)>;

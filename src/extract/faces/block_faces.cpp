@@ -13,8 +13,8 @@
 namespace pdc::detail {
 namespace {
 
-/// Of triple products of three places not farther than a cell from a lattice point: what single precision does to
-/// their sums, and what rounding the places in world space does.
+/// Bounds the error of triple products of three places not farther than a cell from a lattice point: what single
+/// precision does to their sums, and what rounding the places in world space does.
 float volumeErrorBound(const LatticeMap& map, const Coord& block) {
   constexpr double kArithmetic = 1e-5, kPerRounding = 16;
   return static_cast<float>(kArithmetic + kPerRounding * cellRounding(map, block));
@@ -71,7 +71,7 @@ class BlockFaceWriter::Block {
   void findVertices() {
     constexpr int kStepU = CellVertices::kStep[nextAxis(axis)], kStepV = CellVertices::kStep[lastAxis(axis)];
     for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
-      const std::uint32_t* at = mVertices.at(mEdge[i] % kBlockCells);
+      const std::uint32_t* at = mVertices.at({static_cast<std::uint16_t>(mEdge[i] % kBlockCells)});
       for (int k = 0; k < 4; ++k)
         mVertex[k][i] = at[-(kCellsAboutEdge[k][0] * kStepU + kCellsAboutEdge[k][1] * kStepV)];
     }
@@ -79,7 +79,7 @@ class BlockFaceWriter::Block {
 
   [[nodiscard]] EdgeRef edge(int i) const { return {static_cast<std::int32_t>(mBlock), mEdge[i]}; }
 
-  /// Or fewer: `used`.
+  /// Chooses diagonals for the first `used` of sixteen quads, and writes them.
   void addSixteen(int first, int used) {
     for (int k = 0; k < 4; ++k) {
       std::uint32_t* const vertex = &mVertex[k][first];

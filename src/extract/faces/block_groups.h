@@ -22,7 +22,7 @@ class BlockGroups {
       : mTopology(topology), mBegin(begin), mEnd(end), mSolved((end - begin + kGroupBlocks - 1) / kGroupBlocks) {}
 
   struct Range {
-    std::size_t group, begin, end;  ///< Of blocks.
+    std::size_t group, begin, end;  ///< The blocks from begin to end - 1.
   };
   [[nodiscard]] std::size_t count() const { return mSolved.size(); }
   /// May be called as often as there are groups.
@@ -32,7 +32,7 @@ class BlockGroups {
   }
   /// To be called when the vertices of the group's blocks are written: who asks for them then finds them so.
   void setSolved(std::size_t group) { mSolved[group].store(true, std::memory_order_release); }
-  /// Whether all vertices are solved that the faces of a block have, whose own are.
+  /// Whether, once a block's own vertices are solved, all others are that its faces have.
   [[nodiscard]] bool hasItsVertices(std::size_t block) const {
     return std::ranges::all_of(mTopology.blocks[block].lower, [this](std::int32_t lower) {
       return lower < static_cast<std::int32_t>(mBegin) ||

@@ -129,7 +129,7 @@ class MeshFiller {
   const Surface& mSurface;
   const Monitor& mMonitor;
   const bool mNoteSuspects;
-  const std::vector<std::size_t> mEnds;  ///< Of runs of slabs.
+  const std::vector<std::size_t> mEnds;  ///< Where runs of slabs end.
   VertexErrors mErrors;
   const VertexOutput mOut;
   const BlockFaceWriter mFaces;

@@ -12,8 +12,8 @@ namespace pdc::detail {
 /// Sixteen quads about lattice edges, one per lane, their corners in the order of kCellsAboutEdge: at the axis' next
 /// two axes (u, v) = (0, 0), (-1, 0), (-1, -1), (0, -1).
 struct QuadLanes {
-  alignas(64) std::uint32_t axis[kLanes];  ///< Of the edge.
-  /// Of each corner what VertexError holds, in its order.
+  alignas(64) std::uint32_t axis[kLanes];  ///< The axis of each edge.
+  /// The members of each corner's VertexError, in order.
   alignas(64) float corner[4][12][kLanes];
   /// 1 for a diagonal from corner 0 to 2, 0 for one from 1 to 3.
   alignas(64) std::uint32_t first[kLanes];

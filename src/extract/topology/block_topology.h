@@ -28,9 +28,9 @@ struct BlockTopology {
   CellMask cells;                                         ///< Cells with at least one vertex.
   std::array<CellMask, 3> edges;                          ///< Per axis, the edges that get a quad.
   std::array<std::uint16_t, kBlockSize> cellsBefore;      ///< Cells in the words of `cells` before word x.
-  std::array<std::uint16_t, 3 * kBlockSize> quadsBefore;  ///< Of an axis and x: quads of the words of `edges` before.
+  std::array<std::uint16_t, 3 * kBlockSize> quadsBefore;  ///< By axis and x: quads in the words of `edges` before.
   std::array<std::int32_t, 8> lower;             ///< Positions of the blocks at -dx, -dy, -dz; index 4dx + 2dy + dz.
-  std::span<const MultiVertexCell> multiVertex;  ///< By ascending cell; in Topology::multiVertex.
+  std::span<const MultiVertexCell> multiVertex;  ///< By ascending cell; part of Topology::multiVertex.
   std::uint32_t vertexCount, quadCount;
   std::uint32_t openArcs;  ///< Vertices whose faces form an open fan; each is one end of two boundary edges.
   std::uint64_t firstVertex, firstQuad;
@@ -53,7 +53,7 @@ struct BlockTopology {
 /// The topology of all blocks, with vertices and quads numbered through in block order.
 struct Topology {
   Buffer<BlockTopology> blocks;
-  std::vector<std::vector<MultiVertexCell>> multiVertex;  ///< Of all blocks.
+  std::vector<std::vector<MultiVertexCell>> multiVertex;  ///< Those of all blocks, in chunks.
   BlockIndex index;
   std::uint64_t vertexCount = 0, quadCount = 0, openArcs = 0, multiVertexCells = 0;
 

@@ -10,7 +10,7 @@ namespace pdc::detail {
 /// A number for each cell of a block and of the layer of cells about it; 0 for those that have not been given one.
 class CellNumbers {
  public:
-  /// From a cell to the next along an axis.
+  /// The step from a cell to the next along each axis.
   static constexpr std::array<int, 3> kStep{256, 16, 1};
 
   void clear() { mNumber.fill(0); }
@@ -18,7 +18,8 @@ class CellNumbers {
     const int n = cell.number;
     mNumber[kOrigin + n + 8 * (n >> 3) + 128 * (n >> 6)] = number;
   }
-  /// From that of the cell whose lowest corner is `point` of the block, 256x + 16y + z.
+  /// Points to the number of the cell whose lowest corner is `point` of the block, 256x + 16y + z; those of its
+  /// neighbours lie kStep away.
   [[nodiscard]] const std::uint16_t* at(int point) const { return &mNumber[kOrigin + point]; }
 
  private:

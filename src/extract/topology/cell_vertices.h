@@ -29,9 +29,10 @@ class CellVertices {
   [[nodiscard]] bool allSimple() const { return mAllSimple; }
   /// Step from a cell to the next along an axis.
   static constexpr std::array<int, 3> kStep{kBlockPoints * kBlockPoints, kBlockPoints, 1};
-  /// From that of the block's cell 64x + 8y + z.
-  [[nodiscard]] const std::uint32_t* at(int cell) const {
-    return &mVertex[index(0, 0, 0) + cell + (cell >> 3) + kBlockPoints * (cell >> 6)];
+  /// Points to the number of a cell of the block; those of its neighbours lie kStep away.
+  [[nodiscard]] const std::uint32_t* at(BlockCell cell) const {
+    const int n = cell.number;
+    return &mVertex[index(0, 0, 0) + n + (n >> 3) + kBlockPoints * (n >> 6)];
   }
 
  private:
@@ -44,7 +45,7 @@ class CellVertices {
         (dy != 0 ? std::uint64_t{0xFF} << 56 : ~std::uint64_t{0}) & (dz != 0 ? 0x8080808080808080 : ~std::uint64_t{0});
     for (int x = dx != 0 ? kBlockSize - 1 : 0; x < kBlockSize; ++x) {
       const std::uint64_t word = b.cells.word[x];
-      // Of a cell that may lie outside.
+      // The cell may lie outside the block; its neighbours that are asked for do not.
       const int first = index(x - kBlockSize * dx, -kBlockSize * dy, -kBlockSize * dz);
       const auto number = static_cast<std::uint32_t>(b.firstVertex + b.cellsBefore[x]);
       for (std::uint64_t w = word & wanted; w != 0; w &= w - 1) {

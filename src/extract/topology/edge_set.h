@@ -38,7 +38,7 @@ class EdgeSet {
     const std::int32_t place = mPlace[e.block];
     return place >= 0 && mBlocks[place].edges[e.axis()].test(e.x(), e.y(), e.z());
   }
-  /// Of an edge that is there, its place in the list.
+  /// The position in the list of an edge that is there.
   [[nodiscard]] std::size_t number(const EdgeRef& e) const {
     const Block& block = mBlocks[mPlace[e.block]];
     const std::uint64_t below = (std::uint64_t{1} << (8 * e.y() + e.z())) - 1;
@@ -51,7 +51,7 @@ class EdgeSet {
     std::array<std::size_t, 3 * kBlockSize> before;  ///< Edges in the list before those of a word that has some.
   };
 
-  std::vector<std::int32_t> mPlace;  ///< By block.
+  std::vector<std::int32_t> mPlace;  ///< The number of each block among those that have some, or -1.
   std::vector<Block> mBlocks;
 };
 

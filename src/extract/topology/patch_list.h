@@ -16,7 +16,7 @@ class PatchList {
   [[nodiscard]] std::size_t size() const { return mPatches.size(); }
   [[nodiscard]] const SurfacePatch& operator[](std::size_t i) const { return mPatches[i]; }
   [[nodiscard]] std::span<const SurfacePatch> patches() const { return mPatches; }
-  /// Whether patch i is of a cell in which not every place is safe (see CellEntry), or of several.
+  /// Whether not every place is safe in the cell of patch i (see CellEntry), or the cell has several patches.
   [[nodiscard]] bool ambiguous(std::size_t i) const { return mAmbiguous[i] != 0; }
   [[nodiscard]] bool anyAmbiguous() const { return mAnyAmbiguous; }
   /// Ascending, the patches of multi-vertex cells (see BlockTopology). Any other has all of its cell's crossings.

@@ -18,7 +18,7 @@ struct PatchLanes {
   alignas(64) std::uint32_t cell[kLanes];
   NormalEquationsLanes<float> system;  ///< About the mass points.
   SolutionLanes<float> step;
-  Vec3Lanes<float> mass;  ///< From the low corner of the cell.
+  Vec3Lanes<float> mass;  ///< The mass points, from the low corner of the cell.
   alignas(64) float reach[kLanes];
   alignas(64) float error[12][kLanes];  ///< The members of VertexError.
   alignas(64) float position[4][kLanes];

@@ -17,7 +17,7 @@ namespace pdc::detail {
 /// What the crossings of sixteen patches, one per lane, sum up to: places p in lattice units from the low corner of the
 /// patch's cell, which keeps their rounding at that of numbers up to one.
 struct PatchSumLanes {
-  alignas(64) float row[16][kLanes];  ///< Of PatchSums.
+  alignas(64) float row[16][kLanes];  ///< In the order of PatchSums::Row.
 
   [[nodiscard]] SymMat3<float> A(int i) const {
     return {row[0][i], row[1][i], row[2][i], row[3][i], row[4][i], row[5][i]};
@@ -49,7 +49,7 @@ class PatchSums {
     turnIntoLanes(patches.size());
   }
 
-  /// Of patch `first`, a multiple of kLanes, and those that follow; lanes beyond the last repeat it.
+  /// The sums of patch `first`, a multiple of kLanes, and of those that follow; lanes beyond the last repeat it.
   [[nodiscard]] const PatchSumLanes& lanes(std::size_t first) const { return mLanes[first / kLanes]; }
 
  private:
@@ -146,7 +146,7 @@ class PatchSums {
   }
 
   CellNumbers mNumber;
-  std::vector<Row> mRow;  ///< From the second on, of the patches; the first is of all that are none.
+  std::vector<Row> mRow;  ///< The first takes what belongs to no patch; the patches follow.
   std::vector<PatchSumLanes> mLanes;
 };
 

@@ -41,7 +41,7 @@ class VertexErrors {
   [[nodiscard]] VertexError& operator[](std::uint64_t vertex) {
     return mErrors[mIndex.place(static_cast<std::uint32_t>(vertex))];
   }
-  /// Those of `count` vertices from `first` on, if they lie in a row; otherwise null.
+  /// Points to the errors of `count` vertices from `first` on if they lie in a row; otherwise null.
   [[nodiscard]] VertexError* run(std::uint64_t first, std::uint32_t count) {
     const std::uint32_t place = mIndex.place(static_cast<std::uint32_t>(first));
     return mIndex.size - place >= count ? &mErrors[place] : nullptr;

@@ -9,7 +9,7 @@ namespace pdc::detail {
 
 struct SolvedVertex {
   Vec3d x;                 ///< Lattice units from the centre of the cell.
-  SymMat3<double> A;       ///< Of the patch's quadric.
+  SymMat3<double> A;       ///< The patch's quadric has this matrix.
   Vec3d halfGradient;      ///< Ax − b: zero where the vertex is the free minimiser.
   bool outOfCell = false;  ///< The free minimiser lay outside the cell.
   bool moved = false;      ///< The vertex is not the free minimiser.

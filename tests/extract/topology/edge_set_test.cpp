@@ -15,7 +15,7 @@ TEST(EdgeSet, KnowsItsEdgesAndTheirPlaces) {
   std::vector<EdgeRef> all, some;
   for (std::int32_t block = 0; block < 4; ++block)
     for (std::uint16_t edge = 0; edge < 3 * 512; ++edge) all.push_back({block, edge});
-  // Of the third block there is none.
+  // The third block has none.
   std::copy_if(all.begin(), all.end(), std::back_inserter(some),
                [&](const EdgeRef& e) { return e.block != 2 && random() % 3 == 0; });
   const EdgeSet set(4, some);
