@@ -66,7 +66,7 @@ Candidate loop(const Output& to, std::size_t count, const F& f) {
           count};
 }
 
-/// f(blocks) for the blocks that hold `count` results.
+/// Calls f with the batches that hold `count` results.
 template <typename Out, typename F>
 Candidate batch(const Output& to, std::size_t count, const F& f) {
   return {[out = std::span(to.of<Out>(), batchCount(count)), f] {
@@ -99,7 +99,8 @@ class Table {
   std::deque<Row>& rows() { return mRows; }
 
  private:
-  /// \param authors of the header's quadric type and an index; \param one of an index; \param all of a span of blocks.
+  /// \param authors takes the header's quadric type and an index. \param one takes an index. \param all takes a span of
+  /// batches.
   template <typename Authors, typename One, typename All>
   void addQuadrics(const std::string& name, const Authors& authors, const One& one, const All& all) {
     add<NormalEquations<T>, NormalEquationsLanes<T>>(name + " (A, b)", authors, one, all);
