@@ -10,7 +10,7 @@ namespace pdc::detail {
 /// Writes text into the end of a buffer that was made large enough beforehand.
 class TextCursor {
  public:
-  /// Room for any float or index in decimal and a separator.
+  /// Bytes that are enough for any float or index in decimal and a separator.
   static constexpr std::size_t kMaxNumber = 24;
 
   /// Takes over the buffer until finish(); `capacity` bytes must be enough for all that is written.
@@ -21,7 +21,7 @@ class TextCursor {
   void finish() { mBuffer.resize(static_cast<std::size_t>(mNext - mBuffer.data())); }
 
   void put(char c) { *mNext++ = c; }
-  /// Shortest decimal that reads back to the same value.
+  /// Writes the shortest decimal that reads back to the same value.
   template <typename Number>
   void put(Number number) {
     mNext = std::to_chars(mNext, mNext + kMaxNumber, number).ptr;
