@@ -31,7 +31,7 @@ class SimplexNoise final : public Field {
   explicit SimplexNoise(std::vector<Octave> octaves) : mOctaves(std::move(octaves)) {}
 
   void values(PointSpan points, double* values) const override {
-    forEachLanes(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+    forEachPointBatch(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
       Lanes f;
       addOctaves(p, f);
       std::copy_n(f.value.data(), size, values + first);
@@ -39,7 +39,7 @@ class SimplexNoise final : public Field {
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    forEachLanes(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+    forEachPointBatch(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
       Lanes f;
       addOctaves<true>(p, f);
       std::copy_n(f.value.data(), size, values + first);
@@ -82,7 +82,7 @@ class SimplexNoise final : public Field {
 
   /// Calls visit(first, size, points) for batches of points; only the last one may have unused lanes, which are zero.
   template <typename Visit>
-  static void forEachLanes(PointSpan points, const Visit& visit) {
+  static void forEachPointBatch(PointSpan points, const Visit& visit) {
     for (std::size_t first = 0; first < points.size; first += kLanes) {
       const std::size_t size = std::min(points.size - first, std::size_t{kLanes});
       Lanes p;
