@@ -50,7 +50,7 @@ struct AuthorsInputs {
   }
 };
 
-/// The part of a quadric that is stored: all of it, or A and b.
+/// Stores all of a quadric, or A and b.
 template <typename Out, typename T>
 struct AuthorsOutput {
   using Type = typename AuthorsInputs<T>::Quadric;

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Rates of operations on a machine that others use too: every candidate runs for a moment in turn, round after round,
-/// and the best of its rounds counts. Time is the thread's own, without that in which it did not run.
+/// and the best of its rounds counts. Time is that in which the thread ran.
 namespace pdc::bench {
 
 struct Candidate {

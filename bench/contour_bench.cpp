@@ -1,4 +1,4 @@
-// Contouring grids, grid in memory to mesh in memory, beside OpenVDB's own mesher in the same process.
+// Times contouring from grid in memory to mesh in memory, beside OpenVDB's own mesher in the same process.
 
 #include <benchmark/benchmark.h>
 #include <openvdb/io/File.h>
@@ -55,7 +55,7 @@ void report(benchmark::State& state, std::size_t vertices) {
   state.counters["vertices"] = static_cast<double>(vertices);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;  // Of the process up to now.
+  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;  // The peak of the process up to now.
 }
 
 tbb::global_control limitThreads(const benchmark::State& state) {
@@ -87,7 +87,7 @@ void volumeToMesh(benchmark::State& state, const FloatGrid::Ptr& grid) {
   report(state, vertices);
 }
 
-/// What contouring has to move at least: every leaf in, every vertex and quad out, at the pace of a copy.
+/// Copies what contouring has to move at least, every leaf in and every vertex and quad out.
 void roofline(benchmark::State& state, const FloatGrid::Ptr& grid) {
   const auto threads = limitThreads(state);
   const std::size_t vertices =
@@ -135,7 +135,8 @@ void addAll(const Input& input) {
 
 }  // namespace
 
-/// Arguments beyond those of Google Benchmark: .vdb files to contour too, and --large for the sphere of radius 1000.
+/// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, and --large for the sphere of radius
+/// 1000.
 int main(int argc, char** argv) {
   openvdb::initialize();
   benchmark::Initialize(&argc, argv);

@@ -2,7 +2,7 @@
 
 #include "pdc/math/quadric.h"
 
-/// Minimisers of quadrics by Eigen's solvers, for float and double. Apart from the rest since they take minutes to
+/// Minimisers of quadrics by Eigen's solvers, for float and double, in a file of their own since they take minutes to
 /// compile.
 namespace pdc::bench {
 
@@ -13,7 +13,7 @@ Vec3<T> solveJacobiSvd(const Quadric<T>& f);
 template <typename T>
 Vec3<T> solveBdcSvd(const Quadric<T>& f);
 
-/// SelfAdjointEigenSolver::computeDirect.
+/// Uses SelfAdjointEigenSolver::computeDirect.
 template <typename T>
 Vec3<T> solveEigenDirect(const Quadric<T>& f);
 

@@ -20,7 +20,7 @@
 namespace pdc::eval {
 namespace {
 
-/// Half size of a solid in a cube of a given number of voxels.
+/// The half size of a solid in a cube of a given number of voxels.
 constexpr double kFill = 0.35;
 
 struct Request {
@@ -43,7 +43,7 @@ struct Case {
 
 struct Outcome {
   Figures figures;
-  double correlation = 0;  ///< Of the vertices' lack of confidence with their errors.
+  double correlation = 0;  ///< Rank correlation of the vertices' lack of confidence with their errors.
   double milliseconds = 0;
   std::size_t drawnBack = 0;
 };

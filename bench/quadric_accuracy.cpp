@@ -20,7 +20,7 @@ using namespace pdc;
 constexpr int kDecades = 12;
 constexpr int kSystems = 1'000'000;
 
-/// Median and largest of the relative errors of one solver at one condition, and how often it declined.
+/// The relative errors of one solver at one condition, and how often it declined.
 struct Errors {
   std::vector<double> relative;
   int declined = 0;
@@ -48,8 +48,8 @@ Vec3<T> solveJacobiSvd(const SymMat3<T>& A, const Vec3<T>& b) {
   return {x[0], x[1], x[2]};
 }
 
-/// One row: systems with eigenvalues 1, between, and 1/condition in random frames. The reference solves the rounded
-/// system.
+/// Measures one row: systems with eigenvalues 1, between, and 1/condition in random frames. The reference solves the
+/// rounded system.
 template <typename T>
 void printConditionRow(RandomGeometry& random, double condition) {
   Errors ldlt, cramer, svd;

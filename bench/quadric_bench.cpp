@@ -29,7 +29,7 @@ using bench::Candidate;
 
 constexpr int kRounds = 15;
 
-/// What one operation is measured in; `run` is empty where there is no such implementation.
+/// The implementations of one operation; `run` is empty where there is none.
 struct Row {
   std::string name;
   Candidate header, one, batch;
@@ -38,7 +38,7 @@ struct Row {
 /// Stops the compiler from leaving out what was written to memory.
 inline void clobberMemory() { asm volatile("" ::: "memory"); }
 
-/// Where all candidates of a table write: the same pages for each.
+/// The memory that all candidates of a table write to, so that each has the same pages.
 class Output {
  public:
   explicit Output(std::size_t bytes) : mMemory(static_cast<std::byte*>(::operator new(bytes, kAlignment))) {}
@@ -56,7 +56,7 @@ class Output {
   std::unique_ptr<std::byte, Free> mMemory;
 };
 
-/// to[i] = f(i) for all i.
+/// Sets out[i] = f(i) for all i.
 template <typename Out, typename F>
 Candidate loop(const Output& to, std::size_t count, const F& f) {
   return {[out = to.of<Out>(), count, f] {
@@ -66,7 +66,7 @@ Candidate loop(const Output& to, std::size_t count, const F& f) {
           count};
 }
 
-/// f(blocks) for the blocks that hold `count` results.
+/// Calls f with the batches that hold `count` results.
 template <typename Out, typename F>
 Candidate batch(const Output& to, std::size_t count, const F& f) {
   return {[out = std::span(to.of<Out>(), batchCount(count)), f] {
@@ -99,7 +99,8 @@ class Table {
   std::deque<Row>& rows() { return mRows; }
 
  private:
-  /// \param authors of the header's quadric type and an index; \param one of an index; \param all of a span of blocks.
+  /// \param authors takes the header's quadric type and an index. \param one takes an index. \param all takes a span of
+  /// batches.
   template <typename Authors, typename One, typename All>
   void addQuadrics(const std::string& name, const Authors& authors, const One& one, const All& all) {
     add<NormalEquations<T>, NormalEquationsLanes<T>>(name + " (A, b)", authors, one, all);
@@ -198,7 +199,7 @@ class Table {
     addEigen();
   }
 
-  /// Bound by computing: a few quadrics will do.
+  /// A few quadrics will do, because computing takes the time and not memory.
   void addEigen() {
     constexpr std::size_t kCount = 256;
     const Quadric<T>* f = mIn.quadrics.data();
@@ -266,6 +267,6 @@ void printTable(std::size_t count, std::string_view filter) {
 /// \param argv optionally a part of the names of the rows wanted.
 int main(int argc, char** argv) {
   const std::string_view filter = argc > 1 ? argv[1] : "";
-  // In the second-level cache, and through memory as in the paper.
+  // One table stays in the second-level cache, one goes through memory as in the paper.
   for (const std::size_t count : {2048U, 1U << 20}) printTable(count, filter);
 }

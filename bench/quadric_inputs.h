@@ -9,7 +9,7 @@
 
 namespace pdc::bench {
 
-/// The same random planes, triangles, covariances and systems, one by one and in blocks.
+/// The same random planes, triangles, covariances and systems, one by one and in batches.
 template <typename T>
 struct QuadricInputs {
   std::vector<Vec3<T>> p, q, r, n;
@@ -37,19 +37,19 @@ struct QuadricInputs {
       for (auto* v : {&p, &q, &r, &n}) v->push_back(point());
       for (auto* m : {&Sp, &Sq, &Sr}) m->push_back(covariance());
       quadrics.push_back(probabilisticTriangleQuadric(p[i], q[i], r[i], T(0.1)));
-      const std::size_t block = i / kLanes;
+      const std::size_t batch = i / kLanes;
       const int lane = static_cast<int>(i % kLanes);
-      planes[block].q.set(lane, q[i]);
-      planes[block].n.set(lane, n[i]);
-      triangles[block].p.set(lane, p[i]);
-      triangles[block].q.set(lane, q[i]);
-      triangles[block].r.set(lane, r[i]);
-      Sigmas[block].p.set(lane, Sp[i]);
-      Sigmas[block].q.set(lane, Sq[i]);
-      Sigmas[block].r.set(lane, Sr[i]);
-      Sigma_n[block].set(lane, Sp[i]);
-      Sigma_q[block].set(lane, Sq[i]);
-      systems[block].set(lane, quadrics[i]);
+      planes[batch].q.set(lane, q[i]);
+      planes[batch].n.set(lane, n[i]);
+      triangles[batch].p.set(lane, p[i]);
+      triangles[batch].q.set(lane, q[i]);
+      triangles[batch].r.set(lane, r[i]);
+      Sigmas[batch].p.set(lane, Sp[i]);
+      Sigmas[batch].q.set(lane, Sq[i]);
+      Sigmas[batch].r.set(lane, Sr[i]);
+      Sigma_n[batch].set(lane, Sp[i]);
+      Sigma_q[batch].set(lane, Sq[i]);
+      systems[batch].set(lane, quadrics[i]);
     }
   }
 };

@@ -1,5 +1,5 @@
-// Contouring scenes: time and samples per vertex, and how both grow with the resolution, beside the time that sampling
-// the whole box takes. Prints a table.
+// Measures contouring scenes: time and samples per vertex, and how both grow with the resolution, beside the time that
+// sampling the whole box takes. Prints a table.
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -28,7 +28,7 @@ constexpr int kRuns = 5;
 /// Larger boxes are not sampled whole.
 constexpr int kMostSampled = 512;
 
-/// Counts the points that a field is asked for; those of gradients once.
+/// Counts the points that a field is asked for; a gradient counts as one.
 class CountingField final : public pdc::Field {
  public:
   explicit CountingField(pdc::FieldPtr field) : mField(std::move(field)) {}
@@ -62,7 +62,7 @@ double milliseconds(const std::function<void()>& run) {
   return times[1 + kRuns / 2];
 }
 
-/// Samples the lattice of n³ cells over a box, and keeps nothing.
+/// Samples the lattice of n³ cells over a box and drops the values.
 void sampleBox(const pdc::Field& field, const pdc::Box& box, int n, double h) {
   tbb::parallel_for(0, (n + 1) * (n + 1), [&](int row) {
     using Row = std::array<double, pdc::Field::kMaxBatch>;

@@ -1,4 +1,4 @@
-// Self-intersections of meshes by placement, beside OpenVDB's own mesher: a table in Markdown.
+// Prints a table in Markdown: self-intersections of meshes by placement, beside OpenVDB's own mesher.
 // usage: soundness_table FILE... (.vdb and .yaml; --shapes: level sets of solids in random poses, 32³ to 256³)
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ std::string hits(const pdc::Mesh& mesh) {
              : fmt::format("{:.3g}", 1e3 * static_cast<double>(pairs) / static_cast<double>(triangleCount(mesh)));
 }
 
-/// Edges and vertices at which the mesh is no closed, coherently oriented manifold.
+/// The number of edges and vertices at which the mesh is no closed, coherently oriented manifold.
 std::size_t faults(const pdc::Mesh& mesh) {
   const pdc::MeshReport r = pdc::analyze(mesh);
   return r.boundaryEdges + r.nonManifoldEdges + r.nonManifoldVertices + r.misorientedEdges;
@@ -90,7 +90,7 @@ void printFile(const std::filesystem::path& path) {
   }
 }
 
-/// A narrow band of a field over its gradient's length, which is a distance near the surface.
+/// A narrow band of a field divided by its gradient's length, which is a distance near the surface.
 openvdb::FloatGrid::Ptr levelSet(const pdc::Field& field, int resolution) {
   constexpr float kHalfWidth = 3;
   const auto grid = openvdb::FloatGrid::create(kHalfWidth);
@@ -110,7 +110,7 @@ openvdb::FloatGrid::Ptr levelSet(const pdc::Field& field, int resolution) {
   return grid;
 }
 
-/// Sums over the grids and all σn.
+/// Sums over all grids and all σn.
 void printShape(const std::string& name, int resolution, const std::vector<openvdb::FloatGrid::Ptr>& grids) {
   std::size_t meshes = 0, triangles = 0, broken = 0, pairs = 0, freePairs = 0, freeTriangles = 0, uncertified = 0;
   for (const auto& grid : grids) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kHalfWidth = 3;
 
-/// distance + shift, clamped to the band.
+/// The distance plus a shift, clamped to the band.
 openvdb::FloatGrid::Ptr sampleDistance(const Shape& shape, const Pose& pose, double shift) {
   auto grid = openvdb::FloatGrid::create(kHalfWidth);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -24,7 +24,7 @@ openvdb::FloatGrid::Ptr sampleDistance(const Shape& shape, const Pose& pose, dou
   const openvdb::CoordBBox box(openvdb::Coord(-(reach / 8 + 1)), openvdb::Coord(reach / 8 + 1));
   for (auto it = box.beginXYZ(); it; ++it) {
     const openvdb::Coord origin((*it).x() * 8, (*it).y() * 8, (*it).z() * 8);
-    constexpr double kToCorner = 6.1;  // from the middle of a leaf's points
+    constexpr double kToCorner = 6.1;  // A leaf's points lie within this distance of their middle.
     if (std::abs(value(origin.asVec3d() + openvdb::Vec3d(3.5))) > kHalfWidth + kToCorner) continue;
     auto* leaf = grid->tree().touchLeaf(origin);
     for (openvdb::Index i = 0; i < 512; ++i) {

@@ -20,7 +20,7 @@ struct GridInput {
 };
 
 /// A level set of half width 3 on the lattice of integer points. \param noise standard deviation of what is added to
-/// every active value, in voxels; \param seed of it.
+/// every active value, in voxels. \param seed chooses the noise.
 [[nodiscard]] GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise,
                                  unsigned seed);
 

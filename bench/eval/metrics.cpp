@@ -42,7 +42,7 @@ void forEachPoint(const Vec3d& a, const Vec3d& b, double step, const Visit& visi
   for (int i = 0; i < n; ++i) visit(a + (b - a) * ((i + 0.5) / n));
 }
 
-/// Points of edges; of curved ones, whose segments are short, not more than of straight ones.
+/// Points on edges, as many per length on curved ones, whose segments are short, as on straight ones.
 std::vector<Vec3d> edgePoints(const std::vector<Segment>& edges, const Pose& pose) {
   std::vector<Vec3d> out;
   double gap = kStep;
@@ -139,7 +139,7 @@ double edgeF1(const std::vector<Segment>& sharp, const std::vector<Vec3d>& truth
   return 2 * precision * recall / (precision + recall);
 }
 
-/// Where each value comes when they are sorted; equal ones in their own order.
+/// The place of each value when they are sorted; equal ones keep their order.
 std::vector<double> places(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -7,11 +7,11 @@
 
 namespace pdc::eval {
 
-/// How far a mesh is from the solid it stands for. Lengths in voxels.
+/// How far a mesh is from the solid that it stands for. Lengths are in voxels.
 struct Figures {
-  double vertexRms = 0, vertexMax = 0;  ///< Distance of its vertices from the surface.
+  double vertexRms = 0, vertexMax = 0;  ///< Distance of the mesh's vertices from the surface.
   double edgeRms = 0, edgeMax = 0;      ///< Distance of points of the true edges from its triangles, at most kFar.
-  double cornerMax = 0;                 ///< The same of true corners.
+  double cornerMax = 0;                 ///< Distance of the true corners from its triangles, at most kFar.
   double normalP99 = 0;  ///< Degrees between triangle and surface normals, 99th percentile by count, farther than
                          ///< kAway from every crease.
   double edgeF1 = 0;     ///< Harmonic mean of the shares of its sharp edges (more than kSharp degrees) that lie within
@@ -22,10 +22,11 @@ struct Figures {
 /// Distance of each vertex from the surface, in voxels.
 [[nodiscard]] std::vector<double> vertexErrors(const Mesh& mesh, const Shape& shape, const Pose& pose);
 
-/// Spearman's: the correlation of the places that values have when they are sorted. \pre as many of both
+/// Spearman's correlation: that of the places which values have when they are sorted. \pre a and b are equally long.
 [[nodiscard]] double rankCorrelation(const std::vector<double>& a, const std::vector<double>& b);
 
-/// What is measured: everything, or vertices beyond the solid's middle along x and edges and corners before it.
+/// The part that is measured: everything, or vertices beyond the solid's middle along x and edges and corners before
+/// it.
 enum class Part { kAll, kHalves };
 
 [[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part = Part::kAll);

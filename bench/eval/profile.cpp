@@ -34,7 +34,7 @@ void addCircle(std::vector<Segment>& edges, double r, double z) {
   for (int i = 0; i < kCircle; ++i) edges.push_back({at(i), at(i + 1)});
 }
 
-/// Rings of points joined by quads: ring i to ring i + 1, the last to the first if `closed`.
+/// Joins rings of points by quads, ring i to ring i + 1, and the last to the first if `closed`.
 ShapeMesh joinRings(const std::vector<std::vector<Vec3d>>& rings, bool closed) {
   ShapeMesh mesh;
   const int n = static_cast<int>(rings[0].size()), count = static_cast<int>(rings.size());

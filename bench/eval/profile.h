@@ -14,8 +14,8 @@ struct Point2 {
 /// hole.
 struct Profile {
   std::vector<Point2> polygon{};  ///< Counter-clockwise; empty for a disc.
-  double radius = 0;              ///< Of the disc.
-  double hole = 0;                ///< Radius of the hole; 0 for none.
+  double radius = 0;              ///< Radius of the disc.
+  double hole = 0;                ///< Radius of the hole; 0 without one.
 
   [[nodiscard]] double distance(double x, double y) const;
   /// Distance from the origin to the outline in the direction of an angle.

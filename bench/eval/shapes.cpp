@@ -25,10 +25,10 @@ std::vector<Point2> regular(int n, double radius, double inner) {
   return out;
 }
 
-/// A prism over a kite with right angles at the sides; measured is the edge at its tip alone, and its ends.
+/// A prism over a kite with two right angles; only the edge at the kite's tip and its ends are measured.
 Shape wedge(int degrees, bool heldOut) {
-  const double half = degrees * kPi / 360, side = std::min(1.3, 1.6 * std::cos(half));
-  const double x = side * std::cos(half), y = side * std::sin(half), back = side / std::cos(half);
+  const double half = degrees * kPi / 360, leg = std::min(1.3, 1.6 * std::cos(half));
+  const double x = leg * std::cos(half), y = leg * std::sin(half), back = leg / std::cos(half);
   const double shift = x;  // The origin lies between the right angles.
   Profile kite{.polygon = {{-shift, 0}, {x - shift, -y}, {back - shift, 0}, {x - shift, y}}};
   Shape shape = extrude(fmt::format("wedge{}", degrees), heldOut, kite, 0.7);

@@ -22,7 +22,7 @@ struct ShapeMesh {
 
 struct Shape {
   std::string name;
-  bool heldOut;                                  ///< Not looked at while constants were chosen.
+  bool heldOut;                                  ///< Nobody looked at it while constants were chosen.
   std::function<double(const Vec3d&)> distance;  ///< Negative inside; exact, so its gradient is of length one.
   std::vector<Segment> edges;                    ///< The creases that are measured, curved ones as short segments.
   std::vector<Segment> creases;                  ///< All creases.
@@ -44,7 +44,7 @@ struct Pose {
   [[nodiscard]] Vec3d toShape(const Vec3d& x) const { return rotation.transposed() * (x - offset) * (1 / size); }
 };
 
-/// The pose of a number: the same on every machine of a kind.
+/// A random pose that depends on the number alone, the same on every machine of a kind.
 [[nodiscard]] Pose randomPose(unsigned seed, double size);
 
 }  // namespace pdc::eval

@@ -2,7 +2,8 @@
 
 #include "pdc/field/field.h"
 
-/// Checks of a caller's arguments. All throw std::invalid_argument with one line: what, the limit, the value.
+/// Checks of a caller's arguments. All throw std::invalid_argument with one line that says what, the limit and the
+/// value.
 namespace pdc::detail {
 
 void requirePositive(const char* what, double value);

@@ -7,14 +7,14 @@
 
 namespace pdc::detail {
 
-/// The cube root of the rounding error: where the errors of a central difference, h² from the series and 1/h from
-/// rounding, add up to least.
+/// Relative step h: the cube root of the rounding error, where the errors of a central difference, proportional to h²
+/// for the series and to 1/h for rounding, add up to least.
 inline constexpr double kDifferenceStep = 6.0554544523933429e-6;
-/// Coordinates below this count as this large, so that a step remains at the origin.
+/// Smaller coordinates count as this large, so that a step remains at the origin.
 inline constexpr double kSmallestCoordinate = 1e-3;
 
-/// Central differences along each axis. `evaluate(points, values)` computes a batch of values. The step depends on the
-/// point alone.
+/// Gradients by central differences along each axis. The step depends on the point alone, so that results do not depend
+/// on the batch. \param evaluate evaluate(points, values) computes a batch of values.
 template <typename Evaluate>
 void centralDifferences(PointSpan points, const Evaluate& evaluate, GradientSpan gradients) {
   double upper[Field::kMaxBatch], lower[Field::kMaxBatch], atUpper[Field::kMaxBatch], atLower[Field::kMaxBatch];

@@ -39,7 +39,7 @@ void refuseAssignment(const std::string& expression) {
   }
 }
 
-/// A parser with variables of its own. Not to be shared between threads.
+/// A parser with variables of its own, for one thread at a time.
 class Evaluator {
  public:
   explicit Evaluator(const std::string& expression) {
@@ -52,7 +52,7 @@ class Evaluator {
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
 
-  // One by one: muParser's bulk mode starts OpenMP threads in each call.
+  // Points are evaluated one by one, because muParser's bulk mode starts OpenMP threads in each call.
   double operator()(double x, double y, double z) {
     mX = x;
     mY = y;
@@ -67,7 +67,7 @@ class Evaluator {
   mu::Parser mParser;
 };
 
-/// \throws Error for everything that would otherwise go wrong later.
+/// \throws Error for everything that would otherwise go wrong when points are evaluated.
 void check(const std::string& expression) {
   refuseAssignment(expression);
   try {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "field/arguments.h"
-#include "field/block_ranges.h"
 #include "field/image_box.h"
 #include "field/interval_arithmetic.h"
 #include "field/trilinear_cell.h"
+#include "field/voxel_ranges.h"
 #include "pdc/error.h"
 #include "pdc/math/mat3.h"
 
@@ -22,7 +22,7 @@ namespace {
 using detail::TrilinearCell;
 using openvdb::Coord;
 
-/// World space to index space: linear · (p - origin).
+/// The map from world space to index space, p ↦ linear · (p - origin).
 struct ToIndex {
   Mat3d linear;
   Vec3d origin;
@@ -32,7 +32,7 @@ ToIndex toIndex(const openvdb::GridBase& grid) {
   if (!grid.transform().isLinear())
     throw Error(fmt::format("grid \"{}\": transform of type {}, expected an affine one", grid.getName(),
                             grid.transform().mapType()));
-  // OpenVDB multiplies row vectors from the left.
+  // OpenVDB multiplies row vectors from the left, so its rows are columns here.
   const openvdb::Mat4d m = grid.transform().baseMap()->getAffineMap()->getMat4();
   Mat3d toWorld;
   for (int i = 0; i < 3; ++i) toWorld.row[i] = {m(0, i), m(1, i), m(2, i)};
@@ -44,10 +44,11 @@ ToIndex toIndex(const openvdb::GridBase& grid) {
   return {linear, {m(3, 0), m(3, 1), m(3, 2)}};
 }
 
-/// Index coordinates are cut off here, where no grid reaches, so that int has room for them and their differences.
+/// Index coordinates are cut off beyond this, where no grid reaches, so that int has room for them and their
+/// differences.
 constexpr double kFarthest = 1 << 29;
 
-/// Written so that NaN, too, ends inside.
+/// The largest integer not above x; the comparisons are such that NaN becomes an int too.
 int indexFloor(double x) {
   const double inside = x > -kFarthest ? (x < kFarthest ? x : kFarthest) : -kFarthest;
   const int towardsZero = static_cast<int>(inside);
@@ -99,7 +100,7 @@ class GridField final : public Field {
  private:
   using Accessor = openvdb::tree::ValueAccessor<const typename Grid::TreeType, false>;
 
-  /// As many as a box of 8³ cells touches, wherever it lies on the lattice.
+  /// As many voxels per axis as a box of 8³ cells touches, wherever it lies on the lattice.
   static constexpr int kScanVoxels = 10;
 
   [[nodiscard]] TrilinearCell cellAt(const Vec3d& world, const Accessor& accessor) const {
@@ -111,8 +112,8 @@ class GridField final : public Field {
     return cell;
   }
 
-  /// Exact range over a small index box. The interpolant is linear along each axis from one lattice plane, or face of
-  /// the box, to the next; so the outermost voxels are moved onto the faces, and then no value lies beyond those.
+  /// The exact range over a small index box. The interpolant is linear along each axis from one lattice plane, or face
+  /// of the box, to the next; so the outermost voxels are moved onto the faces, and then no value lies beyond those.
   [[nodiscard]] Interval scan(const Box& box, const Coord& first, const Coord& last) const {
     constexpr int kStride[3] = {kScanVoxels * kScanVoxels, kScanVoxels, 1};
     const int size[3] = {last.x() - first.x() + 1, last.y() - first.y() + 1, last.z() - first.z() + 1};
@@ -144,7 +145,7 @@ class GridField final : public Field {
   typename Grid::ConstPtr mGrid;
   ToIndex mToIndex;
   double mIso, mSign;
-  detail::BlockRanges<typename Grid::TreeType> mRanges;
+  detail::VoxelRanges<typename Grid::TreeType> mRanges;
 };
 
 }  // namespace

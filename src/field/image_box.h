@@ -7,7 +7,7 @@
 
 namespace pdc::detail {
 
-/// A box about the image of `box` under p -> linear · (p - origin), as small as can be, short of room for rounding.
+/// The smallest box about the image of `box` under p ↦ linear · (p - origin), with room for rounding.
 inline Box imageBox(const Mat3d& linear, const Vec3d& origin, const Box& box) {
   // Many times what a few additions and multiplications lose.
   constexpr double kRounding = 1e-14;

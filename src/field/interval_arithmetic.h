@@ -23,15 +23,16 @@ inline Interval widened(Interval range, double magnitude) {
   return wide.lo <= wide.hi ? wide : Interval::whole();
 }
 
-/// Bound from the value at the box's centre and a constant that limits the slope.
+/// The bound that follows from the value at the box's centre and a constant that limits the slope.
 inline Interval lipschitzBound(double atCenter, double slope, const Box& box) {
   if (!std::isfinite(atCenter)) return Interval::whole();
   const double reach = slope * box.radius();
   return widened({atCenter - reach, atCenter + reach}, slope * largestEntry(box));
 }
 
-/// What two bounds of the same function say together.
+/// The range that holds a function's values if both ranges do.
 inline Interval intersection(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
+/// The smallest range that holds both.
 inline Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
 inline Interval around(double center, double radius) { return {center - radius, center + radius}; }

@@ -32,7 +32,7 @@ class PointwiseField final : public Field {
   explicit PointwiseField(const Shape& shape) : mShape(shape) {}
 
   void values(PointSpan points, double* values) const override {
-    // A copy: what `values` points to might be mShape, as far as the compiler knows.
+    // The shape is copied, because `values` might point to mShape as far as the compiler knows.
     forEachPoint(points.size, [=, shape = mShape](std::size_t i) {
       values[i] = shape.value({points.x[i], points.y[i], points.z[i]});
     });
@@ -52,11 +52,11 @@ class PointwiseField final : public Field {
   [[nodiscard]] double lipschitz() const override { return mShape.lipschitz(); }
 
  private:
-  /// Calls f(i) for i = 0 … size − 1, sixteen at a time as far as there are as many.
+  /// Calls f(i) for i = 0 … size − 1, in batches as long as they are full.
   template <typename F>
   void forEachPoint(std::size_t size, const F& f) const {
-    forEachBatch(mLevel, size / kLanes, [f](std::size_t block) {
-      const std::size_t first = block * kLanes;
+    forEachBatch(mLevel, size / kLanes, [f](std::size_t batch) {
+      const std::size_t first = batch * kLanes;
       forEachLane([&](int lane) { f(first + static_cast<std::size_t>(lane)); });
     });
     for (std::size_t i = size - size % kLanes; i < size; ++i) f(i);

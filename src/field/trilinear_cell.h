@@ -11,14 +11,14 @@ inline double lerp(double a, double b, double t) { return a + (b - a) * t; }
 /// The eight voxels about a point, and where between them it lies.
 struct TrilinearCell {
   double v[2][2][2];  ///< [x][y][z]
-  Vec3d t;
+  Vec3d t;            ///< 0 to 1 from the lower to the upper voxels.
 
   [[nodiscard]] double value() const {
     const AlongZ f = alongZ();
     return lerp(lerp(f.v00, f.v01, t.y), lerp(f.v10, f.v11, t.y), t.x);
   }
 
-  /// Derivatives of value() by t.
+  /// The derivatives of value() with respect to t.
   [[nodiscard]] Vec3d gradient() const {
     const AlongZ f = alongZ();
     const double z0 = lerp(v[0][0][1] - v[0][0][0], v[0][1][1] - v[0][1][0], t.y);
@@ -36,7 +36,7 @@ struct TrilinearCell {
   }
 };
 
-/// Fills cell.v with the voxels from `lower` to lower + 1.
+/// Fills cell.v with the voxels from `lower` to lower + 1, and searches the tree only once if one leaf holds them all.
 template <typename Accessor>
 void readVoxels(const Accessor& accessor, const openvdb::Coord& lower, TrilinearCell& cell) {
   using Leaf = typename Accessor::TreeType::LeafNodeType;

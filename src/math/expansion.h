@@ -7,8 +7,9 @@
 namespace pdc::detail {
 
 /// A number as an unevaluated sum of doubles without common bits, the smallest first and none of them zero (Shewchuk
-/// 1997). Operations are exact as long as nothing overflows or underflows. They rely on every sum and product being
-/// rounded to nearest on its own, so sources that use them are compiled without contraction.
+/// 1997, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates). Operations are exact as
+/// long as nothing overflows or underflows. They rely on every sum and product being rounded to nearest on its own, so
+/// sources that use them are compiled without contraction.
 template <std::size_t kCapacity>
 struct Expansion {
   std::array<double, kCapacity> parts;
@@ -20,30 +21,32 @@ struct Expansion {
   [[nodiscard]] int sign() const { return size == 0 ? 0 : parts[size - 1] > 0 ? 1 : -1; }
 };
 
-/// A rounded result and what the rounding took away.
+/// A rounded result, and what rounding took away from it: the exact result is value + rest.
 struct Rounded {
   double value, rest;
 };
 
+/// The sum of any two numbers.
 inline Rounded twoSum(double a, double b) {
   const double sum = a + b;
   const double bPart = sum - a, aPart = sum - bPart;
   return {sum, (a - aPart) + (b - bPart)};
 }
 
-/// For |a| >= |b|.
+/// The sum of two numbers with |a| >= |b|.
 inline Rounded fastTwoSum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// Into two halves of at most 26 bits.
+/// Splits a number into two of at most 26 bits, whose products are exact.
 inline Rounded split(double a) {
   const double c = 0x8000001p0 * a;
   const double high = c - (c - a);
   return {high, a - high};
 }
 
+/// The product of two numbers (Dekker).
 inline Rounded twoProduct(double a, double b) {
   const double product = a * b;
   const Rounded as = split(a), bs = split(b);
@@ -65,7 +68,7 @@ Expansion<kN> negated(Expansion<kN> e) {
   return e;
 }
 
-/// Merges the parts by magnitude and carries upwards: Shewchuk's fast expansion sum.
+/// The sum, by merging the parts by magnitude and carrying upwards: Shewchuk's FAST-EXPANSION-SUM with two-sums.
 template <std::size_t kN, std::size_t kM>
 Expansion<kN + kM> sum(const Expansion<kN>& e, const Expansion<kM>& f) {
   Expansion<kN + kM> result;
@@ -85,6 +88,7 @@ Expansion<kN + kM> sum(const Expansion<kN>& e, const Expansion<kM>& f) {
   return result;
 }
 
+/// The product with a number: Shewchuk's SCALE-EXPANSION.
 template <std::size_t kN>
 Expansion<2 * kN> scaled(const Expansion<kN>& e, double factor) {
   Expansion<2 * kN> result;
@@ -102,7 +106,7 @@ Expansion<2 * kN> scaled(const Expansion<kN>& e, double factor) {
   return result;
 }
 
-/// By a factor of at most two parts, such as a difference of two numbers.
+/// The product with a factor of at most two parts, such as a difference of two numbers.
 template <std::size_t kN>
 Expansion<4 * kN> product(const Expansion<kN>& e, const Expansion<2>& factor) {
   Expansion<2 * kN> low, high;

@@ -8,10 +8,11 @@
 
 namespace pdc::detail {
 
-/// A row of eight.
+/// Eight floats in a vector register.
 using Float8 = float __attribute__((vector_size(32)));
 
-/// Row k of `to` becomes column k of the four rows; `toStep` lies between the starts of rows.
+/// Transposes four rows of four floats: row k of `to` becomes column k of `from`. Rows of `to` start `toStep` floats
+/// apart.
 inline void transpose4(const std::array<const float*, 4>& from, float* to, std::size_t toStep) {
   const Float4 a = loadFloat4(from[0]), b = loadFloat4(from[1]), c = loadFloat4(from[2]), d = loadFloat4(from[3]);
   const Float4 ab01 = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab23 = __builtin_shufflevector(a, b, 2, 6, 3, 7);

@@ -8,12 +8,12 @@
 #include "pdc/math/quadric_lanes.h"
 #include "pdc/math/simd_level.h"
 
-/// Loops over blocks and their lanes, compiled once for every SimdLevel. Bodies are written for one lane, in plain
+/// Loops over batches and their lanes, compiled once for every SimdLevel. Bodies are written for one lane, in plain
 /// scalars; `flatten` pulls them into the function that has the instruction set, where the compiler vectorises them.
 namespace pdc::detail {
 
-/// Calls f(lane) for every lane, or the first so many. Lanes do not see each other: f may read and write any block at
-/// its own lane only.
+/// Calls f(lane) for the first `count` lanes, in no promised order. Lanes do not see each other: f may read and write
+/// any batch at its own lane only.
 template <int count = kLanes, typename F>
 inline void forEachLane(const F& f) {
 #if defined(__clang__)
@@ -24,8 +24,9 @@ inline void forEachLane(const F& f) {
   for (int lane = 0; lane < count; ++lane) f(lane);
 }
 
-/// Folds kLanes values into one: lanes 8 apart first, so that the order is the same on every processor. As vectors,
-/// because g++ vectorises across several such folds in a row, by way of permutations. \param fold of two vectors.
+/// Folds kLanes values into one, lanes 8 apart first, so that the order is the same on every processor. It is written
+/// in vectors, because g++ would vectorise plain loops across several folds in a row, by way of permutations. \param
+/// fold makes fold(a, b) of two vectors in the first.
 template <typename T, typename F>
 inline T foldLanes(const T* lanes, const F& fold) {
   static_assert(kLanes == 16 && sizeof(T) == 4);
@@ -41,11 +42,10 @@ inline T foldLanes(const T* lanes, const F& fold) {
   fold(four, __builtin_shufflevector(four, four, 1, 0, 3, 2));
   return four[0];
 }
-/// The sum of kLanes values.
 inline float sumLanes(const float* lanes) {
   return foldLanes(lanes, [](auto& a, const auto& b) { a += b; });
 }
-/// The largest of kLanes values, none of them NaN.
+/// None of the values may be NaN.
 inline float maxLanes(const float* lanes) {
   return foldLanes(lanes, [](auto& a, const auto& b) { a = a > b ? a : b; });
 }
@@ -70,7 +70,8 @@ template <typename F>
 }
 #endif
 
-/// Calls f(i) for i = 0 … count − 1 with the instructions of `level`, or of the best one there is.
+/// Calls f(i) for i = 0 … count − 1 with the instructions of `level`, or of the processor's best level if that is
+/// lower.
 template <typename F>
 void forEachBatch(SimdLevel level, std::size_t count, const F& f) {
 #if defined(__x86_64__)
@@ -88,7 +89,7 @@ void forEachBatch(SimdLevel level, std::size_t count, const F& f) {
   loopBaseline(count, f);
 }
 
-/// Calls f() once, compiled for `level`, or for the best one there is.
+/// Calls f() once, with the instructions that forEachBatch() would take.
 template <typename F>
 void withSimd(SimdLevel level, const F& f) {
   forEachBatch(level, 1, [&f](std::size_t) { f(); });

@@ -5,14 +5,14 @@
 namespace pdc::detail {
 namespace {
 
-/// A vector between two points, exactly.
+/// The exact vector between two points.
 struct Edge {
   Expansion<2> x, y, z;
   Edge(const Vec3d& from, const Vec3d& to)
       : x(difference(to.x, from.x)), y(difference(to.y, from.y)), z(difference(to.z, from.z)) {}
 };
 
-/// a d - b c
+/// ad - bc.
 Expansion<16> determinant(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c, const Expansion<2>& d) {
   return sum(product(a, d), negated(product(b, c)));
 }

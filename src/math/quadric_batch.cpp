@@ -16,52 +16,53 @@ void expectLength(std::size_t length, std::size_t expected) {
   if (length != expected) throw std::invalid_argument("pdc: the spans of a batch differ in length");
 }
 
-/// out[i] = make(i, lane), in all lanes of all blocks.
+/// out[i] = make(i, lane), in all lanes of all batches.
 template <typename Out, typename F>
 void build(SimdLevel level, std::span<Out> out, const F& make) {
   detail::forEachBatch(level, out.size(), [out, &make](std::size_t i) {
-    Out& block = out[i];
-    detail::forEachLane([&](int lane) { block.set(lane, make(i, lane)); });
+    Out& batch = out[i];
+    detail::forEachLane([&](int lane) { batch.set(lane, make(i, lane)); });
   });
 }
 
-/// How far ahead solving asks for memory. A million systems are solved, relative to one by one in the same run, in
-/// double precision 0.7 to 1.1 times as fast without, 1.7 with 2.5 KB, 1.5 with 5 KB, 1.3 with 10 KB; in single
-/// precision 3.3, 3.3 with 2.5 KB and 3.7 with 5 KB. In cache it makes no difference.
+/// How far ahead solving asks for memory, by measurement. A million systems are solved, relative to one by one in the
+/// same run, in double precision 0.7 to 1.1 times as fast without, 1.7 with 2.5 KB, 1.5 with 5 KB, 1.3 with 10 KB; in
+/// single precision 3.3, 3.3 with 2.5 KB and 3.7 with 5 KB. In cache it makes no difference.
 constexpr std::size_t kPrefetchBytes = 5120;
 
-/// Asks for the block that will be needed in a while.
+/// Asks for the memory of the batch that is kPrefetchBytes ahead.
 template <typename Lanes>
-void prefetchAhead(std::span<const Lanes> blocks, std::size_t i) {
+void prefetchAhead(std::span<const Lanes> batches, std::size_t i) {
   constexpr std::size_t kAhead = kPrefetchBytes / sizeof(Lanes), kCacheLine = 64;
-  if (i + kAhead >= blocks.size()) return;
-  const auto* const block = reinterpret_cast<const char*>(&blocks[i + kAhead]);
-  for (std::size_t k = 0; k < sizeof(Lanes); k += kCacheLine) __builtin_prefetch(block + k);
+  if (i + kAhead >= batches.size()) return;
+  const auto* const batch = reinterpret_cast<const char*>(&batches[i + kAhead]);
+  for (std::size_t k = 0; k < sizeof(Lanes); k += kCacheLine) __builtin_prefetch(batch + k);
 }
 
-/// The bits of a scalar, and the scalar that has them all.
+/// An unsigned number as wide as the scalar T.
 template <typename T>
 using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
+/// The scalar whose bits are all set, which serves as a mask.
 template <typename T>
 constexpr T kAllBits = std::bit_cast<T>(~Bits<T>(0));
 
-/// Blocks that are summed one after the other; the rounding of so few does not matter beside that of the quadrics.
+/// This many batches are summed one after the other; the rounding of so few is small beside that of the quadrics.
 constexpr std::size_t kSumRun = 64;
 
-/// sum += the sum of the blocks, lane by lane.
+/// Adds the batches to `sum`, lane by lane.
 template <typename T>
-void sumBlocks(SimdLevel level, std::span<const QuadricLanes<T>> quadrics, QuadricLanes<T>& sum) {
+void sumBatches(SimdLevel level, std::span<const QuadricLanes<T>> quadrics, QuadricLanes<T>& sum) {
   if (quadrics.size() > kSumRun) {
     const std::size_t half = quadrics.size() / 2;
     QuadricLanes<T> second{};
-    sumBlocks(level, quadrics.first(half), sum);
-    sumBlocks(level, quadrics.subspan(half), second);
+    sumBatches(level, quadrics.first(half), sum);
+    sumBatches(level, quadrics.subspan(half), second);
     addQuadrics(std::span<const QuadricLanes<T>>(&second, 1), std::span<QuadricLanes<T>>(&sum, 1), level);
     return;
   }
   detail::forEachBatch(level, quadrics.size(), [quadrics, &sum](std::size_t i) {
-    const QuadricLanes<T>& block = quadrics[i];
-    detail::forEachLane([&](int lane) { sum.set(lane, sum.get(lane) + block.get(lane)); });
+    const QuadricLanes<T>& batch = quadrics[i];
+    detail::forEachLane([&](int lane) { sum.set(lane, sum.get(lane) + batch.get(lane)); });
   });
 }
 
@@ -164,7 +165,7 @@ void addQuadrics(std::span<const Lanes> from, std::span<Lanes> to, SimdLevel lev
 template <typename T>
 Quadric<T> sumQuadrics(std::span<const QuadricLanes<T>> quadrics, SimdLevel level) {
   QuadricLanes<T> sum{};
-  sumBlocks(level, quadrics, sum);
+  sumBatches(level, quadrics, sum);
   for (int width = kLanes / 2; width > 0; width /= 2)
     for (int lane = 0; lane < width; ++lane) sum.set(lane, sum.get(lane) + sum.get(lane + width));
   return sum.get(0);
@@ -176,15 +177,15 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
   using T = typename Lanes::Scalar;
   expectLength(systems.size(), solutions.size());
   detail::forEachBatch(level, systems.size(), [=](std::size_t i) {
-    const Lanes& block = systems[i];
+    const Lanes& batch = systems[i];
     SolutionLanes<T>& solution = solutions[i];
     prefetchAhead(systems, i);
-    // Loops with scalars of one size and without a choice: compilers put selections into branches, or stumble over the
-    // bytes, otherwise. The masks are floating-point numbers because SSE2 compares no others of eight bytes.
+    // Each loop has scalars of one size and no choice, because compilers would put selections into branches and would
+    // not vectorise over bytes. The masks are floating-point numbers because SSE2 compares no others of eight bytes.
     alignas(64) T mask[kLanes];
     detail::forEachLane([&](int lane) {
       Vec3<T> x;
-      mask[lane] = detail::ldlt(block.A.get(lane), block.b.get(lane), x) ? kAllBits<T> : T(0);
+      mask[lane] = detail::ldlt(batch.A.get(lane), batch.b.get(lane), x) ? kAllBits<T> : T(0);
       solution.x.set(lane, x);
     });
     detail::forEachLane([&](int lane) {
@@ -201,7 +202,7 @@ void solveLdlt(std::span<const Lanes> systems, std::span<SolutionLanes<typename 
 
 // NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types.
 
-// The batches for one scalar and one kind of output.
+// All functions for one scalar and one kind of output.
 #define PDC_INSTANTIATE_FOR_OUT(T, Out)                                                                              \
   template void planeQuadrics(std::span<const PlaneLanes<T>>, std::span<Out<T>>, SimdLevel);                         \
   template void probabilisticPlaneQuadrics(std::span<const PlaneLanes<T>>, T, T, std::span<Out<T>>, SimdLevel);      \

@@ -11,7 +11,7 @@ namespace {
 // Three sweeps suffice for almost all matrices; convergence is quadratic.
 constexpr int kMaxJacobiSweeps = 12;
 
-/// Zeroes entry (p, q) of the full symmetric matrix m and turns the columns of v along.
+/// Zeroes entry (p, q) of the full symmetric matrix m by a rotation, and applies that to the columns of v too.
 void rotate(double (&m)[3][3], double (&v)[3][3], int p, int q) {
   if (m[p][q] == 0) return;
   const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
@@ -51,8 +51,8 @@ struct Best {
   }
 };
 
-/// The coordinate of the box's wall that v is beyond.
-double wall(const Box& box, int axis, double v) { return v < box.lo[axis] ? box.lo[axis] : box.hi[axis]; }
+/// The face of the box that v is beyond.
+double violatedFace(const Box& box, int axis, double v) { return v < box.lo[axis] ? box.lo[axis] : box.hi[axis]; }
 
 bool within(const Box& box, int axis, double v) { return box.lo[axis] <= v && v <= box.hi[axis]; }
 
@@ -72,17 +72,17 @@ void minimizeOnFace(Best& best, Vec3d x, int fixed, const Box& box) {
   const double det = A(j, j) * A(k, k) - A(j, k) * A(j, k);
   x[j] = (A(k, k) * rj - A(j, k) * rk) / det;
   x[k] = (A(j, j) * rk - A(j, k) * rj) / det;
-  // As in the box: where the free minimiser of the face is outside, one of the sides it violates is active.
+  // As in minimizeInBox(): if the face's own minimiser is outside, some edge that it violates is active.
   const bool outJ = !within(box, j, x[j]), outK = !within(box, k, x[k]);
   if (!outJ && !outK) return best.offer(x);
   if (outJ) {
     Vec3d y = x;
-    y[j] = wall(box, j, x[j]);
+    y[j] = violatedFace(box, j, x[j]);
     minimizeOnEdge(best, y, k, box);
   }
   if (outK) {
     Vec3d y = x;
-    y[k] = wall(box, k, x[k]);
+    y[k] = violatedFace(box, k, x[k]);
     minimizeOnEdge(best, y, j, box);
   }
 }
@@ -139,7 +139,7 @@ Vec3d minimizeInBox(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free,
     if (within(box, axis, free[axis])) continue;
     outside = true;
     Vec3d x{};
-    x[axis] = wall(box, axis, free[axis]);
+    x[axis] = violatedFace(box, axis, free[axis]);
     minimizeOnFace(best, x, axis, box);
   }
   return outside ? best.x : free;

@@ -5,10 +5,10 @@
 
 namespace pdc::detail {
 
-/// Calls write(i, bit) for i = 0, 1, … and the set bits of a word, ascending; then for some i beyond, kAtOnce at most,
-/// with bit 64, where it must do no harm: how many bits there are cannot be foreseen, and a loop that ends unforeseen
-/// costs more than a few writes in vain. Should be compiled into a function of a SimdLevel.
-/// \returns the number of set bits.
+/// Calls write(i, bit) for i = 0, 1, … and the set bits of a word, ascending; then for at most kAtOnce further i with
+/// bit 64, where write must do no harm: a loop whose end the processor cannot foresee costs more than a few writes in
+/// vain. Call it within forEachBatch() or withSimd(), so that it gets the processor's instructions for bits. \returns
+/// the number of set bits.
 template <int kAtOnce, typename Write>
 int writeBits(std::uint64_t word, Write&& write) {
   const int count = std::popcount(word);

@@ -37,10 +37,10 @@ RayScene::RayScene(std::span<const Vec3f> positions, std::span<const Triangle> t
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(mImpl->scene, geometry);
   rtcReleaseGeometry(geometry);
-  // Robust: no ray slips through between two triangles.
+  // Otherwise rays slip through between two triangles.
   rtcSetSceneFlags(mImpl->scene, RTC_SCENE_FLAG_ROBUST);
-  // One thread: which of two triangles at one distance a ray meets depends on the tree, and the tree on the threads
-  // that built it.
+  // One thread builds the tree, because which of two triangles at one distance a ray meets depends on the tree, and the
+  // tree on the threads that build it.
   tbb::task_arena alone(1);
   alone.execute([&] { rtcJoinCommitScene(mImpl->scene); });
   const RTCError error = rtcGetDeviceError(mImpl->device);

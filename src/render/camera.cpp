@@ -12,7 +12,7 @@
 namespace pdc {
 namespace {
 
-/// Share of the picture that stays free on each side.
+/// Share of the picture's width and height that stays free at each border.
 constexpr double kMargin = 0.04;
 
 Vec3d unit(const Vec3d& v) { return v * (1 / length(v)); }
@@ -67,7 +67,7 @@ Camera fitCamera(std::span<const Mesh> meshes, const Vec3d& towardsViewer, int w
   if (!(lo.x <= hi.x)) throw Error("nothing to show: the mesh has no face with finite corners");
   const Vec3d size = hi - lo;
   const double free = 1 - 2 * kMargin;
-  // A mesh that is one point is a point at any scale.
+  // A mesh that is one point looks the same at any scale.
   const double scale = std::min(free * width / size.x, free * height / size.y);
   return {axes, axes.transposed() * ((lo + hi) * 0.5), std::isfinite(scale) ? scale : 1};
 }

@@ -20,8 +20,8 @@ using detail::TileRenderer;
 
 void checkOptions(const Mesh& mesh, const RenderOptions& options) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument("render: " + what); };
-  for (const int side : {options.width, options.height})
-    if (side < 1 || side > kMaxImageSide) refuse(fmt::format("{} pixels, must be 1 to {}", side, kMaxImageSide));
+  for (const int pixels : {options.width, options.height})
+    if (pixels < 1 || pixels > kMaxImageSide) refuse(fmt::format("{} pixels, must be 1 to {}", pixels, kMaxImageSide));
   if (options.threads < 0) refuse(fmt::format("threads is {}, must be at least 0", options.threads));
   if (options.shading == Shading::kValues && options.values.size() != mesh.positions.size())
     refuse(fmt::format("{} values for {} vertices", options.values.size(), mesh.positions.size()));
@@ -40,19 +40,19 @@ Image run(const Mesh& mesh, const RenderOptions& options, const Monitor& monitor
   const detail::ViewMesh view = detail::viewMesh(mesh, camera, options.width, options.height);
   monitor.throwIfStopped();
   const detail::RayScene rays(view.positions, view.triangles);
-  // One pixel above the mesh.
+  // Rays start one pixel above the mesh.
   const detail::Picture picture{view, rays, options, highest(view) + 1};
 
   Image image{options.width, options.height, {}};
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  const int across = (image.width + TileRenderer::kTileSide - 1) / TileRenderer::kTileSide;
-  const int down = (image.height + TileRenderer::kTileSide - 1) / TileRenderer::kTileSide;
+  const int across = (image.width + TileRenderer::kTilePixels - 1) / TileRenderer::kTilePixels;
+  const int down = (image.height + TileRenderer::kTilePixels - 1) / TileRenderer::kTilePixels;
   tbb::enumerable_thread_specific<TileRenderer> renderers([&] { return TileRenderer(picture); });
   std::atomic<int> done = 0;
   tbb::parallel_for(tbb::blocked_range<int>(0, across * down, 1), [&](const auto& range) {
     for (int i = range.begin(); i != range.end(); ++i) {
       monitor.throwIfStopped();
-      renderers.local().run(i % across * TileRenderer::kTileSide, i / across * TileRenderer::kTileSide, image);
+      renderers.local().run(i % across * TileRenderer::kTilePixels, i / across * TileRenderer::kTilePixels, image);
       if (monitor.progress) monitor.progress("rendering", static_cast<double>(++done) / (across * down));
     }
   });

@@ -10,14 +10,14 @@ namespace {
 constexpr Vec3f kClayColor{0.64F, 0.58F, 0.50F};
 constexpr Vec3f kBackFaceColor{0.60F, 0.16F, 0.10F};
 constexpr Vec3f kBackground{0.93F, 0.93F, 0.91F};
-/// The light comes from the left above the viewer's shoulder.
+/// The direction to the lamp, which stands to the left above the viewer's shoulder.
 constexpr Vec3f kLamp{-0.48F, 0.60F, 0.64F};
 
-/// A weak second light from the right, without which all that the lamp does not reach would look alike.
+/// A weak lamp stands to the right, or what the first does not reach would all look alike.
 constexpr Vec3f kSecondLamp{0.80F, 0.10F, 0.59F};
 constexpr float kSecondShare = 0.18F;
 
-/// Lightness rises evenly from the first to the last, so that order survives in grey and for any colour vision.
+/// Lightness rises evenly from the first colour to the last, so that order survives in grey and for any colour vision.
 constexpr std::array<Vec3f, 5> kValueColors{{{0.030F, 0.020F, 0.120F},
                                              {0.030F, 0.110F, 0.260F},
                                              {0.020F, 0.270F, 0.250F},

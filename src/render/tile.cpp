@@ -9,31 +9,32 @@
 namespace pdc::detail {
 namespace {
 
-constexpr int kSide = 2;  ///< Samples per pixel and axis.
+constexpr int kSamplesPerAxis = 2;  ///< Samples per pixel along each axis.
 
-/// Sky rays per pixel, and the pixels, kPatternSide², that take different ones; blurring over as many makes them
-/// kSkyRays kPatterns.
-constexpr int kRaysSide = 4, kSkyRays = kRaysSide * kRaysSide;
-constexpr int kPatternSide = 4, kPatterns = kPatternSide * kPatternSide;
+/// Each pixel casts kSkyRays rays at the sky, and kPatternSide² neighbouring pixels cast different ones, so that
+/// blurring over as many pixels gives each kSkyRays · kPatterns rays.
+constexpr int kRaysPerAxis = 4, kSkyRays = kRaysPerAxis * kRaysPerAxis;
+constexpr int kPatternsPerAxis = 4, kPatterns = kPatternsPerAxis * kPatternsPerAxis;
 constexpr int kBlurReach = 2;
 
-/// Turns of the normal between neighbouring samples at which a line begins to show and is full.
+/// A line begins to show at the first turn of the normal between neighbouring samples, and is full from the second.
 constexpr double kLineFromDegrees = 25, kLineFullDegrees = 40;
 constexpr float kLineDarkness = 0.9F;
-/// A neighbour this much farther than the tangent plane says is behind an outline: share of the picture's side.
+/// A neighbour that is this much farther than the tangent plane says is behind an outline; as a share of the picture's
+/// smaller extent.
 constexpr float kOutlineDepth = 0.006F;
 
-constexpr float kEdgeHalfWidth = 0.55F;  ///< Pixels.
+constexpr float kEdgeHalfWidth = 0.55F;  ///< In pixels.
 constexpr float kEdgeDarkness = 0.55F;
-/// Triangles lower than this many pixels have their edges fade, or they would be nothing but edges.
+/// The edges of triangles lower than this many pixels fade, or these would be nothing but edges.
 constexpr float kEdgeFadeHeight = 5;
 
 float cosine(double degrees) { return static_cast<float>(std::cos(degrees * std::numbers::pi / 180)); }
 
-/// 0 up to `from`, 1 from `to` on.
+/// Rises from 0 at `from` to 1 at `to`.
 float ramp(float x, float from, float to) { return std::clamp((x - from) / (to - from), 0.0F, 1.0F); }
 
-/// Directions about z, more of them near it, by its cosine; [pattern][ray].
+/// Directions [pattern][ray] above the plane z = 0, distributed as the cosine of their angle to z.
 using SkyDirections = std::array<std::array<Vec3f, kSkyRays>, kPatterns>;
 
 SkyDirections makeSkyDirections() {
@@ -44,7 +45,7 @@ SkyDirections makeSkyDirections() {
     double shiftV = 0;
     for (int bit = 0; bit < 4; ++bit) shiftV += (pattern >> bit & 1) / double(2 << bit);
     for (int ray = 0; ray < kSkyRays; ++ray) {
-      const double u = (ray % kRaysSide + shiftU) / kRaysSide, v = (ray / kRaysSide + shiftV) / kRaysSide;
+      const double u = (ray % kRaysPerAxis + shiftU) / kRaysPerAxis, v = (ray / kRaysPerAxis + shiftV) / kRaysPerAxis;
       const double radius = std::sqrt(u), turn = 2 * std::numbers::pi * v;
       directions[pattern][ray] =
           vecCast<float>(Vec3d{radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1 - u)});
@@ -53,20 +54,20 @@ SkyDirections makeSkyDirections() {
   return directions;
 }
 
-/// A vector at right angles to the unit vector n; not unit.
+/// A vector at right angles to the unit vector n; it is not zero, but need not be a unit vector.
 Vec3f across(const Vec3f& n) { return std::abs(n.z) < 0.9F ? Vec3f{-n.y, n.x, 0} : Vec3f{0, -n.z, n.y}; }
 
 }  // namespace
 
 TileRenderer::TileRenderer(const Picture& picture) : mPicture(picture) {
-  const int side = std::min(picture.options.width, picture.options.height);
-  constexpr int kSidePerReach = 512;  // Lines are two pixels wide in a picture of 1024.
-  mLineReach = std::max(1, side / kSidePerReach);
-  mMargin = std::max(kBlurReach, (mLineReach + kSide - 1) / kSide);
-  mPixelsAcross = kTileSide + 2 * mMargin;
-  mSamplesAcross = kSide * mPixelsAcross;
+  const int extent = std::min(picture.options.width, picture.options.height);
+  constexpr int kExtentPerReach = 512;  // This makes lines two pixels wide in a picture of 1024.
+  mLineReach = std::max(1, extent / kExtentPerReach);
+  mMargin = std::max(kBlurReach, (mLineReach + kSamplesPerAxis - 1) / kSamplesPerAxis);
+  mPixelsAcross = kTilePixels + 2 * mMargin;
+  mSamplesAcross = kSamplesPerAxis * mPixelsAcross;
   constexpr float kReachShare = 0.2F;
-  mSkyReach = kReachShare * static_cast<float>(side);
+  mSkyReach = kReachShare * static_cast<float>(extent);
   mSamples.resize(mSamplesAcross * mSamplesAcross);
   mSky.resize(mPixelsAcross * mPixelsAcross);
 }
@@ -76,12 +77,13 @@ void TileRenderer::run(int x0, int y0, Image& image) {
   mY0 = static_cast<float>(y0 - mMargin);
   castSamples();
   castSky();
-  for (int y = y0; y < std::min(y0 + kTileSide, image.height); ++y)
-    for (int x = x0; x < std::min(x0 + kTileSide, image.width); ++x) {
+  for (int y = y0; y < std::min(y0 + kTilePixels, image.height); ++y)
+    for (int x = x0; x < std::min(x0 + kTilePixels, image.width); ++x) {
       const int column = x - x0 + mMargin, row = y - y0 + mMargin;
       Vec3f sum{};
-      for (int s = 0; s < kSide * kSide; ++s) sum += color(kSide * column + s % kSide, kSide * row + s / kSide);
-      sum *= 1.0F / (kSide * kSide);
+      for (int s = 0; s < kSamplesPerAxis * kSamplesPerAxis; ++s)
+        sum += color(kSamplesPerAxis * column + s % kSamplesPerAxis, kSamplesPerAxis * row + s / kSamplesPerAxis);
+      sum *= 1.0F / (kSamplesPerAxis * kSamplesPerAxis);
       image.pixels[static_cast<std::size_t>(y) * image.width + x] = {toByte(sum.x), toByte(sum.y), toByte(sum.z)};
     }
 }
@@ -89,8 +91,8 @@ void TileRenderer::run(int x0, int y0, Image& image) {
 void TileRenderer::castSamples() {
   for (int row = 0; row < mSamplesAcross; ++row)
     for (int column = 0; column < mSamplesAcross; ++column)
-      mSamples[column + row * mSamplesAcross] =
-          cast(mX0 + (static_cast<float>(column) + 0.5F) / kSide, mY0 + (static_cast<float>(row) + 0.5F) / kSide);
+      mSamples[column + row * mSamplesAcross] = cast(mX0 + (static_cast<float>(column) + 0.5F) / kSamplesPerAxis,
+                                                     mY0 + (static_cast<float>(row) + 0.5F) / kSamplesPerAxis);
 }
 
 TileRenderer::Sample TileRenderer::cast(float x, float y) const {
@@ -140,24 +142,26 @@ void TileRenderer::castSky() {
       Sky& sky = mSky[column + row * mPixelsAcross];
       sky = {};
       Vec3f p{};
-      for (int s = 0; s < kSide * kSide; ++s) {
-        const int c = kSide * column + s % kSide, r = kSide * row + s / kSide;
+      for (int s = 0; s < kSamplesPerAxis * kSamplesPerAxis; ++s) {
+        const int c = kSamplesPerAxis * column + s % kSamplesPerAxis, r = kSamplesPerAxis * row + s / kSamplesPerAxis;
         const Sample& sample = sampleAt(c, r);
         if (!sample.hit || (sky.hit && sample.z <= sky.z)) continue;
         sky = {sample.normal, sample.z, 1, true};
-        p = {mX0 + (static_cast<float>(c) + 0.5F) / kSide,
-             static_cast<float>(mPicture.options.height) - mY0 - (static_cast<float>(r) + 0.5F) / kSide, sample.z};
+        p = {mX0 + (static_cast<float>(c) + 0.5F) / kSamplesPerAxis,
+             static_cast<float>(mPicture.options.height) - mY0 - (static_cast<float>(r) + 0.5F) / kSamplesPerAxis,
+             sample.z};
       }
       if (!sky.hit) continue;
       const int x = static_cast<int>(mX0) + column, y = static_cast<int>(mY0) + row;
-      sky.open = openSky(p, sky.normal, (x & (kPatternSide - 1)) + kPatternSide * (y & (kPatternSide - 1)));
+      sky.open = openSky(p, sky.normal, (x & (kPatternsPerAxis - 1)) + kPatternsPerAxis * (y & (kPatternsPerAxis - 1)));
     }
 }
 
 float TileRenderer::openSky(const Vec3f& p, const Vec3f& n, int pattern) const {
   static const SkyDirections kDirections = makeSkyDirections();
-  // Smoothed normals may look through the surface a little; from this height rays do not graze the own triangle.
-  constexpr float kLift = 0.75F;  // pixels
+  // Smoothed normals may point a little into the surface; from this many pixels above it rays do not graze their own
+  // triangle.
+  constexpr float kLift = 0.75F;
   const Vec3f origin = p + n * kLift;
   const Vec3f aside = across(n) * (1 / length(across(n))), other = cross(n, aside);
   int open = 0;
@@ -168,10 +172,11 @@ float TileRenderer::openSky(const Vec3f& p, const Vec3f& n, int pattern) const {
 
 /// The mean over the pixels around that lie on the same surface.
 float TileRenderer::skyAt(const Sample& sample, int column, int row) const {
-  constexpr float kSameNormal = 0.9F, kSameDepth = 3;  // pixels off the tangent plane
-  const int middleColumn = column / kSide, middleRow = row / kSide;
+  constexpr float kSameNormal = 0.9F;  // cosine
+  constexpr float kSameDepth = 3;      // pixels off the tangent plane
+  const int middleColumn = column / kSamplesPerAxis, middleRow = row / kSamplesPerAxis;
   float sum = 0, weight = 0;
-  // Four across, so that each pattern comes once.
+  // The range is four pixels across, so that each pattern comes once.
   for (int dy = -kBlurReach; dy < kBlurReach; ++dy)
     for (int dx = -kBlurReach; dx < kBlurReach; ++dx) {
       const Sky& sky = mSky[middleColumn + dx + (middleRow + dy) * mPixelsAcross];
@@ -186,7 +191,7 @@ float TileRenderer::skyAt(const Sample& sample, int column, int row) const {
 
 float TileRenderer::lineDarkness(const Sample& sample, int column, int row) const {
   static const float kFrom = cosine(kLineFromDegrees), kFull = cosine(kLineFullDegrees);
-  const auto side = static_cast<float>(std::min(mPicture.options.width, mPicture.options.height));
+  const auto extent = static_cast<float>(std::min(mPicture.options.width, mPicture.options.height));
   float darkness = 0;
   constexpr std::array<std::array<int, 2>, 8> kAround{
       {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
@@ -195,12 +200,13 @@ float TileRenderer::lineDarkness(const Sample& sample, int column, int row) cons
     const Sample& other = sampleAt(column + dx, row + dy);
     if (!other.hit) return 1;
     const Vec3f& n = sample.normal;
-    // Where the tangent plane is there; a plane seen edge-on says nothing.
-    const float slope = (n.x * static_cast<float>(dx) - n.y * static_cast<float>(dy)) / (kSide * std::max(n.z, 0.1F));
+    // How far the tangent plane falls on the way there; n.z is kept off 0, since a plane seen edge-on says nothing.
+    const float slope =
+        (n.x * static_cast<float>(dx) - n.y * static_cast<float>(dy)) / (kSamplesPerAxis * std::max(n.z, 0.1F));
     const float gap = sample.z - slope - other.z;
-    darkness = std::max(darkness, ramp(gap, kOutlineDepth * side, 1.5F * kOutlineDepth * side));
-    // The far side of an outline is not a crease.
-    if (std::abs(gap) < kOutlineDepth * side) darkness = std::max(darkness, ramp(dot(n, other.normal), kFrom, kFull));
+    darkness = std::max(darkness, ramp(gap, kOutlineDepth * extent, 1.5F * kOutlineDepth * extent));
+    // What lies beyond an outline makes no crease with it.
+    if (std::abs(gap) < kOutlineDepth * extent) darkness = std::max(darkness, ramp(dot(n, other.normal), kFrom, kFull));
   }
   return darkness;
 }

@@ -15,30 +15,30 @@ struct Picture {
   const ViewMesh& mesh;
   const RayScene& rays;
   const RenderOptions& options;
-  float eyeHeight;  ///< z from which rays start: above the whole mesh.
+  float eyeHeight;  ///< The z from which rays start, above the whole mesh.
 };
 
 /// Renders squares of a picture one after the other. A tile looks a few pixels beyond its borders, so that what it
-/// makes does not depend on how the picture is cut up. Only one thread may use it.
+/// makes does not depend on how the picture is cut up. Each thread needs a renderer of its own.
 class TileRenderer {
  public:
-  static constexpr int kTileSide =
-      128;  ///< Pixels: the margin costs an eighth, two threads still share a small picture.
+  /// With this size the margin costs an eighth, and two threads still share a small picture.
+  static constexpr int kTilePixels = 128;
 
   explicit TileRenderer(const Picture& picture);
 
-  /// Pixels from (x0, y0) to (x0 + kTileSide, y0 + kTileSide), as far as the picture goes.
+  /// Renders the pixels from (x0, y0) to (x0 + kTilePixels, y0 + kTilePixels), as far as the picture goes.
   void run(int x0, int y0, Image& image);
 
  private:
   struct Sample {
     Vec3f normal{};   ///< Faces the viewer; zero where there is no surface.
-    float z = 0;      ///< Pixels, towards the viewer.
-    float value = 0;  ///< The share for kValues, from 0 to 1.
-    float edge = 0;   ///< Darkness of a mesh edge over it.
+    float z = 0;      ///< In pixels, towards the viewer.
+    float value = 0;  ///< The value's place in the range of kValues, from 0 to 1.
+    float edge = 0;   ///< Darkness of the mesh's edge over it, 0 without one.
     bool hit = false, backFace = false;
   };
-  /// What a pixel keeps: the nearest of its samples and the share of the sky that it sees.
+  /// The sample of a pixel that is nearest to the viewer, and the share of the sky that it sees.
   struct Sky {
     Vec3f normal{};
     float z = 0, open = 1;
@@ -57,11 +57,11 @@ class TileRenderer {
 
   const Picture& mPicture;
   int mLineReach;          ///< Half the width of lines, in samples.
-  int mMargin;             ///< Pixels.
-  int mPixelsAcross;       ///< With margins.
-  int mSamplesAcross;      ///< With margins.
+  int mMargin;             ///< In pixels.
+  int mPixelsAcross;       ///< Pixels per row, margins included.
+  int mSamplesAcross;      ///< Samples per row, margins included.
   float mSkyReach;         ///< How far occluders count, in pixels.
-  float mX0 = 0, mY0 = 0;  ///< Where the first pixel with margins is, from the left and from the top.
+  float mX0 = 0, mY0 = 0;  ///< Where the margins begin, from the left and from the top of the picture.
   std::vector<Sample> mSamples;
   std::vector<Sky> mSky;
 };

@@ -18,7 +18,7 @@ struct Stars {
 
   Stars(std::span<const Triangle> triangles, std::size_t vertices)
       : first(vertices + 2, 0), around(3 * triangles.size()) {
-    // Counted two places on, so that filling leaves each start where it belongs.
+    // Triangles are counted two places on, so that filling leaves each start where it belongs.
     for (const Triangle& t : triangles)
       for (const std::uint32_t v : t) ++first[v + 2];
     for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
@@ -43,7 +43,7 @@ Buffer<std::array<Vec3f, 3>> smoothNormals(std::span<const Triangle> triangles, 
         const std::uint32_t j = stars.around[s];
         if (dot(own, faceNormals[j]) >= least) sum += faceNormals[j] * areas[j];
       }
-      // All of them are within the angle of the face's own normal, which is one of them.
+      // All summed normals are within the angle of the face's own, so only sums without area vanish.
       const float l = length(sum);
       normals[i][k] = l > 0 ? sum * (1 / l) : own;
     }

@@ -12,11 +12,11 @@ namespace pdc::detail {
 /// A mesh as the picture needs it. Coordinates are pixels: x from the left, y from the bottom, z towards the viewer
 /// from the camera's centre. Triangles without finite corners or without a direction are left out.
 struct ViewMesh {
-  Buffer<Vec3f> positions;  ///< One more than there are: rays read past the end.
+  Buffer<Vec3f> positions;  ///< The mesh's, and one more, because RayScene reads past the end.
   Buffer<Triangle> triangles;
-  Buffer<Vec3f> faceNormals;                   ///< Unit, one per triangle.
-  Buffer<std::array<Vec3f, 3>> cornerNormals;  ///< Unit; smoothed within creases.
-  Buffer<std::uint8_t> drawnEdges;             ///< Bit i: the edge opposite corner i is one of the mesh's.
+  Buffer<Vec3f> faceNormals;                   ///< A unit vector per triangle.
+  Buffer<std::array<Vec3f, 3>> cornerNormals;  ///< Unit vectors; smoothed, but not over creases.
+  Buffer<std::uint8_t> drawnEdges;             ///< Bit i is set if the edge opposite corner i is one of the mesh's.
 };
 
 /// Faces that meet at more than this share no normal, in degrees. Below it lie the turns of curved surfaces of a few
@@ -26,7 +26,8 @@ inline constexpr double kCreaseDegrees = 30;
 /// \throws Error if a face names a vertex that does not exist.
 [[nodiscard]] ViewMesh viewMesh(const Mesh& mesh, const Camera& camera, int width, int height);
 
-/// The corner normals alone, for triangles with these unit normals and areas.
+/// The corner normals of triangles with these unit normals and areas: at each corner the mean, weighted by area, of the
+/// normals around it that are within kCreaseDegrees of the triangle's own.
 [[nodiscard]] Buffer<std::array<Vec3f, 3>> smoothNormals(std::span<const Triangle> triangles,
                                                          std::span<const Vec3f> faceNormals,
                                                          std::span<const float> areas, std::size_t vertexCount);

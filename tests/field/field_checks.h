@@ -19,7 +19,7 @@ struct FieldCase {
   Box region{{-4, -4, -4}, {4, 4, 4}};
 };
 
-/// For the names of parameterised tests.
+/// Prints the names of parameterised tests.
 std::ostream& operator<<(std::ostream& out, const FieldCase& c);
 
 class Random {

@@ -51,6 +51,12 @@ TEST(FunctionField, BoundKnowsNothingWhereThereIsNoValue) {
   EXPECT_FALSE(field->bound({{0, 0, 0}, {1, 1, 1}}).bounded());
 }
 
+TEST(FunctionField, LetsExceptionsOfTheFunctionThrough) {
+  const auto field = functionField({.value = [](const Vec3d&) -> double { throw std::domain_error("no value"); }});
+  EXPECT_THROW((void)field->valueAt({0, 0, 0}), std::domain_error);
+  EXPECT_THROW((void)field->gradientAt({0, 0, 0}), std::domain_error);
+}
+
 TEST(FunctionField, RefusesBadArguments) {
   EXPECT_THROW(functionField({}), std::invalid_argument);
   for (const double bad : {0.0, -1.0, kNan, kInfinity})

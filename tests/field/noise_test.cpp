@@ -55,7 +55,7 @@ TEST(Noise, OneOctaveFillsItsRangeAndNoMore) {
   EXPECT_NEAR(sum / kPoints, 0, 0.01);
 }
 
-// Also says that neither the gradient nor, by and large, the second derivative jumps between simplices.
+// This holds only if neither the gradient nor, by and large, the second derivative jumps between simplices.
 TEST(Noise, GradientsChangeNoFasterThanTheCurvatureAllows) {
   const auto field = simplexNoise({.octaves = 1});
   Random random(2);
@@ -137,7 +137,14 @@ TEST(Noise, RefusesBadArguments) {
   }
   EXPECT_THROW(simplexNoise({.amplitude = -1}), std::invalid_argument);
   EXPECT_THROW(simplexNoise({.amplitude = kNan}), std::invalid_argument);
+  EXPECT_THROW(simplexNoise({.amplitude = kInfinity}), std::invalid_argument);
+}
+
+TEST(Noise, RefusesOctavesWhoseFrequencyOrAmplitudeLeavesTheRangeOfNumbers) {
   EXPECT_THROW(simplexNoise({.octaves = 16, .lacunarity = 1e30}), std::invalid_argument);
+  EXPECT_THROW(simplexNoise({.octaves = 16, .lacunarity = 1e-30}), std::invalid_argument);
+  EXPECT_THROW(simplexNoise({.octaves = 16, .gain = 1e30}), std::invalid_argument);
+  EXPECT_NO_THROW(simplexNoise({.octaves = 16, .gain = 1e-30}));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ const FieldPtr kBrick = box({-0.5, 0.3, 0.2}, {1.2, 0.9, 1.6});
 const FieldPtr kCentered = roundedBox({0, 0, 0}, {1.2, 0.9, 0.5}, 0.2);
 const FieldPtr kCellsAboutEdge = torus({0.2, 0, 0.1}, {1, 1, 2}, 1.6, 0.4);
 
-/// Turned again and again, with something between the turns that keeps them from merging.
+/// A field that is turned again and again, with something between the turns that keeps them from merging.
 FieldPtr nestedRotations(FieldPtr field, int depth) {
   for (int i = 0; i < depth; ++i)
     field = unite({rotate(std::move(field), {1, 2, 3}, 37), plane({0, 0, -9}, {0, 0, 1})});
@@ -77,7 +77,7 @@ TEST_P(Operators, BatchesAgree) { test::expectBatchesAgree(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(All, Operators, testing::ValuesIn(operators()), testing::PrintToStringParamName());
 
-/// The same function: values and gradients differ by no more than `tolerance` anywhere.
+/// Expects the same function: values and gradients differ by no more than `tolerance` anywhere.
 void expectEqual(const FieldPtr& a, const FieldPtr& b, double tolerance = 0) {
   Random random(10);
   for (int i = 0; i < 1000; ++i) {
@@ -120,9 +120,17 @@ TEST(Operators, SharpGradientsAreThoseOfTheActiveOperand) {
   const auto corner = intersect({plane({0, 0, 0}, {1, 0, 0}), plane({0, 0, 0}, {0, 1, 0})});
   EXPECT_EQ(corner->gradientAt({2, 1, 0}), (Vec3d{1, 0, 0}));
   EXPECT_EQ(corner->gradientAt({1, 2, 0}), (Vec3d{0, 1, 0}));
-  const Vec3d g = corner->gradientAt({0, 0, 0});
-  EXPECT_TRUE(g == (Vec3d{1, 0, 0}) || g == (Vec3d{0, 1, 0}));
   EXPECT_EQ(length(shell(kBall, 0.2)->gradientAt({1.9, 0.1, -0.3})), 1);
+}
+
+TEST(Operators, SharpGradientsOfEqualOperandsAreTheFirstOnes) {
+  const FieldPtr x = plane({0, 0, 0}, {1, 0, 0}), y = plane({0, 0, 0}, {0, 1, 0}), behind = complement(y);
+  const Vec3d tie{1, 1, 0};
+  for (const auto& make : {unite, intersect}) {
+    EXPECT_EQ(make({x, y})->gradientAt(tie), (Vec3d{1, 0, 0}));
+    EXPECT_EQ(make({y, x})->gradientAt(tie), (Vec3d{0, 1, 0}));
+  }
+  EXPECT_EQ(subtract({x, behind})->gradientAt(tie), (Vec3d{1, 0, 0}));
 }
 
 // A plane's fillet in the corner of two others starts where it should.
@@ -165,7 +173,7 @@ TEST(Operators, PlacementsCompose) {
   expectEqual(rotate(rotate(kBrick, {1, 1, 0}, 30), {1, 1, 0}, 15), rotate(kBrick, {1, 1, 0}, 45), 1e-13);
   expectEqual(rotate(rotate(kBrick, {1, 2, 3}, 70), {1, 2, 3}, -70), kBrick, 1e-13);
   expectEqual(scale(scale(kBrick, 2), Vec3d{1, 3, 0.5}), scale(kBrick, Vec3d{2, 6, 1}), 1e-14);
-  // Not the other way round.
+  // Operators apply from the inside out, so order matters.
   expectEqual(rotate(translate(kBall, {1, 0, 0}), {0, 0, 1}, 90), translate(rotate(kBall, {0, 0, 1}, 90), {0, 1, 0}),
               1e-14);
 }
@@ -261,6 +269,7 @@ TEST(Operators, RefuseBadArguments) {
   EXPECT_THROW(complement(null), std::invalid_argument);
   EXPECT_THROW(offset(null, 1), std::invalid_argument);
   EXPECT_THROW(offset(kBall, kInfinity), std::invalid_argument);
+  EXPECT_THROW(offset(kBall, kNan), std::invalid_argument);
   EXPECT_THROW(shell(null, 1), std::invalid_argument);
   EXPECT_THROW(translate(null, o), std::invalid_argument);
   EXPECT_THROW(translate(kBall, bad), std::invalid_argument);
@@ -275,6 +284,7 @@ TEST(Operators, RefuseBadArguments) {
   EXPECT_THROW(repeat(null, x, {0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(repeat(kBall, {-1, 0, 0}, {0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(repeat(kBall, bad, {0, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(repeat(kBall, {kInfinity, 0, 0}, {0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(repeat(kBall, x, {0, -1, 0}), std::invalid_argument);
 }
 

@@ -263,6 +263,7 @@ TEST(Primitives, RefuseBadArguments) {
   EXPECT_THROW(cappedCone(o, x, -1, 2), std::invalid_argument);
   EXPECT_THROW(cappedCone(o, x, 1, kInfinity), std::invalid_argument);
   EXPECT_THROW(gyroid(1, -0.1), std::invalid_argument);
+  EXPECT_THROW(gyroid(1, kInfinity), std::invalid_argument);
   EXPECT_THROW(sphere(bad, 1), std::invalid_argument);
   EXPECT_THROW(box(bad, {1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(roundedBox(bad, {1, 1, 1}, 0.1), std::invalid_argument);
@@ -271,7 +272,11 @@ TEST(Primitives, RefuseBadArguments) {
   EXPECT_THROW(plane(o, o), std::invalid_argument);
   EXPECT_THROW(cylinder(x, x, 1), std::invalid_argument);
   EXPECT_THROW(cappedCone(x, x, 1, 1), std::invalid_argument);
+  EXPECT_THROW(cylinder(bad, x, 1), std::invalid_argument);
+  EXPECT_THROW(cappedCone(x, bad, 1, 1), std::invalid_argument);
   EXPECT_THROW(capsule(x, bad, 1), std::invalid_argument);
+  EXPECT_THROW(capsule(x, x, 1), std::invalid_argument);
+  EXPECT_THROW(torus(bad, x, 2, 1), std::invalid_argument);
   EXPECT_THROW(torus(o, o, 2, 1), std::invalid_argument);
   EXPECT_THROW(ellipsoid(bad, {1, 1, 1}), std::invalid_argument);
   try {

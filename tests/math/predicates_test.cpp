@@ -4,29 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <random>
 
+#include "math/whole_number.h"
+
 namespace pdc {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
 using Points = std::array<Vec3d, 4>;
-
-/// 2^400 x, a whole number for all coordinates the predicates promise to be exact for.
-Integer whole(double x) {
-  int exponent = 0;
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
-  const int shift = exponent - 53 + 400;
-  if (mantissa == 0) return 0;
-  return shift >= 0 ? Integer(mantissa) << shift : Integer(mantissa) / (Integer(1) << -shift);
-}
-
-int signOf(const Integer& i) { return i > 0 ? 1 : i < 0 ? -1 : 0; }
 
 Integer turn(const Vec3d& a, const Vec3d& b, const Vec3d& c, int axis) {
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;

@@ -16,7 +16,7 @@
 namespace pdc {
 namespace {
 
-constexpr std::size_t kBlocks = 7;
+constexpr std::size_t kBatches = 7;
 constexpr SimdLevel kLevels[] = {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512};
 
 template <typename T>
@@ -34,9 +34,15 @@ struct Inputs {
   std::vector<Vec3Lanes<T>> sigmas;
   std::vector<TriangleCovarianceLanes<T>> Sigmas;
 
-  Inputs() : planes(kBlocks), triangles(kBlocks), Sigma_n(kBlocks), Sigma_q(kBlocks), sigmas(kBlocks), Sigmas(kBlocks) {
+  Inputs()
+      : planes(kBatches),
+        triangles(kBatches),
+        Sigma_n(kBatches),
+        Sigma_q(kBatches),
+        sigmas(kBatches),
+        Sigmas(kBatches) {
     RandomGeometry random(1);
-    for (std::size_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t i = 0; i < kBatches; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) {
         for (auto* v : {&planes[i].q, &planes[i].n, &triangles[i].p, &triangles[i].q, &triangles[i].r, &sigmas[i]})
           v->set(lane, vecCast<T>(random.point()));
@@ -52,15 +58,15 @@ bool sameBits(const Quadric<T>& p, const Quadric<T>& q) {
   return std::memcmp(&p, &q, sizeof p) == 0;
 }
 
-/// Runs `batch` with both kinds of output at every level and expects the bits of `one(block, lane)`.
-template <typename T, typename Batch, typename One>
-void expectSameAsOneByOne(const Batch& batch, const One& one) {
+/// Runs `function` with both kinds of output at every level and expects the bits of `one(batch, lane)`.
+template <typename T, typename Function, typename One>
+void expectSameAsOneByOne(const Function& function, const One& one) {
   for (const SimdLevel level : kLevels) {
-    std::vector<QuadricLanes<T>> quadrics(kBlocks);
-    std::vector<NormalEquationsLanes<T>> equations(kBlocks);
-    batch(std::span(quadrics), level);
-    batch(std::span(equations), level);
-    for (std::size_t i = 0; i < kBlocks; ++i) {
+    std::vector<QuadricLanes<T>> quadrics(kBatches);
+    std::vector<NormalEquationsLanes<T>> equations(kBatches);
+    function(std::span(quadrics), level);
+    function(std::span(equations), level);
+    for (std::size_t i = 0; i < kBatches; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) {
         const Quadric<T> expected = one(i, lane);
         EXPECT_TRUE(sameBits(quadrics[i].get(lane), expected)) << static_cast<int>(level) << ' ' << i << ' ' << lane;
@@ -92,7 +98,7 @@ TYPED_TEST(QuadricBatch, PlanesAreThoseOfOneByOne) {
         return probabilisticPlaneQuadric(q(i, lane), n(i, lane), in.Sigma_n[i].get(lane));
       });
   for (const SimdLevel level : kLevels) {
-    std::vector<QuadricLanes<T>> out(kBlocks);
+    std::vector<QuadricLanes<T>> out(kBatches);
     probabilisticPlaneQuadrics<T>(in.planes, in.Sigma_n, in.Sigma_q, out, level);
     EXPECT_TRUE(sameBits(out[3].get(5),
                          probabilisticPlaneQuadric(q(3, 5), n(3, 5), in.Sigma_n[3].get(5), in.Sigma_q[3].get(5))));
@@ -131,14 +137,14 @@ TYPED_TEST(QuadricBatch, TrianglesAreThoseOfOneByOne) {
 TYPED_TEST(QuadricBatch, SolutionsAreThoseOfOneByOne) {
   using T = TypeParam;
   const Inputs<T> in;
-  std::vector<QuadricLanes<T>> systems(kBlocks);
+  std::vector<QuadricLanes<T>> systems(kBatches);
   probabilisticTriangleQuadrics(in.triangles, T(0.1), std::span(systems));
   systems[2].set(3, planeQuadric(Vec3<T>{1, 2, 3}, Vec3<T>{0, 0, 1}));
   systems[4].set(9, Quadric<T>::zero());
   for (const SimdLevel level : kLevels) {
-    std::vector<SolutionLanes<T>> solutions(kBlocks);
+    std::vector<SolutionLanes<T>> solutions(kBatches);
     solveLdlt<QuadricLanes<T>>(systems, solutions, level);
-    for (std::size_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t i = 0; i < kBatches; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) {
         const auto expected = solveLdlt(systems[i].A.get(lane), systems[i].b.get(lane));
         EXPECT_EQ(solutions[i].solved[lane], expected.has_value());
@@ -153,12 +159,12 @@ TYPED_TEST(QuadricBatch, SolutionsAreThoseOfOneByOne) {
 TYPED_TEST(QuadricBatch, SumsAreSums) {
   using T = TypeParam;
   const Inputs<T> in;
-  std::vector<QuadricLanes<T>> quadrics(kBlocks), doubled(kBlocks);
+  std::vector<QuadricLanes<T>> quadrics(kBatches), doubled(kBatches);
   planeQuadrics(in.planes, std::span(quadrics));
   auto exact = Quadric<double>::zero();
-  for (const auto& block : quadrics) {
+  for (const auto& batch : quadrics) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Quadric<T> f = block.get(lane);
+      const Quadric<T> f = batch.get(lane);
       exact += {{f.A.xx, f.A.xy, f.A.xz, f.A.yy, f.A.yz, f.A.zz}, vecCast<double>(f.b), f.c};
     }
   }
@@ -178,7 +184,7 @@ TYPED_TEST(QuadricBatch, SumsHaveTheSameBitsAtEveryLevel) {
   const Inputs<T> in;
   std::vector<QuadricLanes<T>> quadrics(1000);
   for (std::size_t i = 0; i < quadrics.size(); ++i) {
-    std::vector<PlaneLanes<T>> plane{in.planes[i % kBlocks]};
+    std::vector<PlaneLanes<T>> plane{in.planes[i % kBatches]};
     planeQuadrics(plane, std::span(&quadrics[i], 1));
   }
   const Quadric<T> sum = sumQuadrics<T>(quadrics, SimdLevel::kBaseline);
@@ -189,21 +195,35 @@ TYPED_TEST(QuadricBatch, SumsHaveTheSameBitsAtEveryLevel) {
 TEST(SumQuadrics, LosesNothingInLongSums) {
   QuadricLanes<float> tenths;
   for (int lane = 0; lane < kLanes; ++lane) tenths.set(lane, pointQuadric(Vec3f{0.1F, 0, 0}));
-  const std::vector<QuadricLanes<float>> blocks(1'000'000 / kLanes, tenths);
-  EXPECT_NEAR(sumQuadrics<float>(blocks).b.x, 1e5, 0.1);
+  const std::vector<QuadricLanes<float>> batches(1'000'000 / kLanes, tenths);
+  EXPECT_NEAR(sumQuadrics<float>(batches).b.x, 1e5, 0.1);
 }
 
 TEST(QuadricBatch, RejectsSpansOfDifferentLength) {
   const std::vector<PlaneLanes<float>> planes(3);
-  const std::vector<SymMat3Lanes<float>> Sigma(2);
-  std::vector<QuadricLanes<float>> two(2), three(3);
+  const std::vector<TriangleLanes<float>> triangles(3);
+  const std::vector<SymMat3Lanes<float>> Sigma2(2), Sigma3(3);
+  const std::vector<Vec3Lanes<float>> sigmas(2);
+  const std::vector<TriangleCovarianceLanes<float>> Sigmas(2);
+  std::vector<QuadricLanes<float>> quadrics2(2), quadrics3(3);
   std::vector<SolutionLanes<float>> solutions(2);
-  EXPECT_THROW(planeQuadrics(planes, std::span(two)), std::invalid_argument);
-  EXPECT_THROW(probabilisticPlaneQuadrics(planes, Sigma, std::span(three)), std::invalid_argument);
+  const std::span two(quadrics2), three(quadrics3);
+  EXPECT_THROW(planeQuadrics(planes, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics(planes, 0.1F, 0.1F, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics(planes, Sigma3, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics(planes, Sigma2, three), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics<float>(planes, Sigma3, Sigma3, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics<float>(planes, Sigma2, Sigma3, three), std::invalid_argument);
+  EXPECT_THROW(probabilisticPlaneQuadrics<float>(planes, Sigma3, Sigma2, three), std::invalid_argument);
+  EXPECT_THROW(triangleQuadrics(triangles, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticTriangleQuadrics(triangles, 0.1F, two), std::invalid_argument);
+  EXPECT_THROW(probabilisticTriangleQuadrics(triangles, sigmas, three), std::invalid_argument);
+  EXPECT_THROW(probabilisticTriangleQuadrics(triangles, Sigmas, three), std::invalid_argument);
+  EXPECT_THROW(addQuadrics<QuadricLanes<float>>(two, three), std::invalid_argument);
   EXPECT_THROW(solveLdlt<QuadricLanes<float>>(three, solutions), std::invalid_argument);
 }
 
-TEST(QuadricLanes, HoldCountsInWholeBlocks) {
+TEST(QuadricLanes, HoldCountsInWholeBatches) {
   EXPECT_EQ(batchCount(0), 0U);
   EXPECT_EQ(batchCount(1), 1U);
   EXPECT_EQ(batchCount(16), 1U);

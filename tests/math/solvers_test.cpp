@@ -53,7 +53,17 @@ TEST(SolveLdlt, RejectsWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(solveLdlt(SymMat3<double>::zero(), Vec3d{1, 0, 0}));
   EXPECT_FALSE(solveLdlt(SymMat3<double>{1, 0, 0, -1, 0, 1}, Vec3d{1, 0, 0}));
   EXPECT_FALSE(solveLdlt(outer(Vec3d{1, 2, 2}), Vec3d{1, 0, 0}));
-  EXPECT_FALSE(solveLdlt(SymMat3<double>{NAN, 0, 0, 1, 0, 1}, Vec3d{1, 0, 0}));
+}
+
+TEST(SolveLdlt, RejectsNanInAnyEntryOfTheMatrix) {
+  const SymMat3<double> regular{3, 0.1, 0.2, 2, 0.3, 1};
+  ASSERT_TRUE(solveLdlt(regular, Vec3d{1, 0, 0}));
+  for (double SymMat3<double>::*entry : {&SymMat3<double>::xx, &SymMat3<double>::xy, &SymMat3<double>::xz,
+                                         &SymMat3<double>::yy, &SymMat3<double>::yz, &SymMat3<double>::zz}) {
+    SymMat3<double> A = regular;
+    A.*entry = NAN;
+    EXPECT_FALSE(solveLdlt(A, Vec3d{1, 0, 0}));
+  }
 }
 
 // A quadric from a mesh, det / trace³ = 1e-17, that Cramer's rule gets wrong in the first digit; exact to the digits
@@ -152,6 +162,15 @@ TEST(SolvePseudoInverse, IsTheTruncatedSvd) {
     EXPECT_EQ(rank, svd.rank());
     EXPECT_LT((toEigen(x) - svd.solve(toEigen(b))).norm(), 1e-10);
   }
+}
+
+TEST(SolvePseudoInverse, LeavesOutNegativeEigenvalues) {
+  int rank = 0;
+  const SymMat3<double> indefinite{-1, 0, 0, 2, 0, 1};
+  EXPECT_EQ(solvePseudoInverse(indefinite, Vec3d{1, 1, 1}, 0, &rank), (Vec3d{0, 0.5, 1}));
+  EXPECT_EQ(rank, 2);
+  EXPECT_EQ(solvePseudoInverse(indefinite, Vec3d{1, 1, 1}, 0.5, &rank), (Vec3d{0, 0.5, 0}));
+  EXPECT_EQ(rank, 1);
 }
 
 TEST(SolvePseudoInverse, OfZeroIsZero) {

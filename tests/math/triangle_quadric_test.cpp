@@ -250,7 +250,7 @@ TEST(ProbabilisticTriangle, IsPositiveDefiniteWhereTheCornersAreCollinear) {
 }
 
 TEST(ProbabilisticTriangle, ConstantTermHasTheFloorOfItsNoise) {
-  // At the centroid of an equilateral triangle of unit edges: σ² L⁴ / 4 to first order.
+  // To first order the value at the centroid of an equilateral triangle of edge L is σ² L⁴ / 4.
   const double sigma = 1e-3, h = std::sqrt(3.0) / 2;
   const Vec3d p{-0.5, -h / 3, 0}, q{0.5, -h / 3, 0}, r{0, 2 * h / 3, 0};
   EXPECT_NEAR(probabilisticTriangleQuadric(p, q, r, sigma)(Vec3d{}), sigma * sigma / 4, 1e-11);
@@ -269,7 +269,7 @@ TEST(ProbabilisticTriangle, IsWhatThePaperPrints) {
 /// Three triangles of unit size near one point, and that point.
 struct Corner {
   Vec3d origin;
-  std::array<std::array<Vec3d, 3>, 3> triangle;  // Relative to the origin.
+  std::array<std::array<Vec3d, 3>, 3> triangle;  // Corners relative to the origin.
 
   Corner(RandomGeometry& random, double distance) : origin(random.direction() * distance) {
     for (auto& [p, q, r] : triangle) {

@@ -34,7 +34,7 @@ inline Mesh sphere(int n) {
   return mesh;
 }
 
-/// The same surface seen from the other side.
+/// The surface turned inside out.
 inline Mesh insideOut(Mesh mesh) {
   for (Quad& q : mesh.quads) std::swap(q[1], q[3]);
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);

@@ -9,7 +9,8 @@
 
 namespace pdc {
 
-/// Points to evaluate, one array per coordinate. size <= Field::kMaxBatch.
+/// Points to evaluate, in world units, one array per coordinate. size <= Field::kMaxBatch; coordinates are finite.
+/// Neither is checked.
 struct PointSpan {
   const double* x;
   const double* y;
@@ -17,7 +18,7 @@ struct PointSpan {
   std::size_t size;
 };
 
-/// Where gradients go, one array per component, as long as the points'.
+/// Where gradients go, one array per component, as long as the points' and apart from them.
 struct GradientSpan {
   double* x;
   double* y;
@@ -29,6 +30,8 @@ struct GradientSpan {
 /// Work is done in batches, so that the cost of a virtual call is shared and the loops inside vectorise. The result for
 /// a point must not depend on the other points of its batch: neighbouring blocks evaluate shared lattice points
 /// separately and must agree.
+///
+/// Fields of fields evaluate their operands recursively, with about 8 KiB of stack for each level.
 class Field {
  public:
   /// Largest batch; implementations keep their temporaries in arrays of this length on the stack.
@@ -36,23 +39,26 @@ class Field {
 
   virtual ~Field() = default;
 
-  /// values[i] = f(p_i). NaN is allowed where the function has no value; the sampler reads it as outside.
+  /// values[i] = f(p_i). NaN is allowed where the function has no value; the sampler reads it as outside. The array is
+  /// as long as the points' and apart from them.
   virtual void values(PointSpan points, double* values) const = 0;
 
-  /// values as above, and the gradient at each point. Where the function has a crease the gradient of one of its sides;
-  /// where it has none at all, zero or NaN, which the sampler treats as "no normal".
+  /// The same values, bit for bit, and the gradient at each point, in value per world unit. On a crease it is the
+  /// gradient of one of the pieces that meet there; where the function has none it is zero or NaN, which the sampler
+  /// treats as "no normal".
   virtual void gradients(PointSpan points, double* values, GradientSpan gradients) const = 0;
 
-  /// A range that contains f over the whole box (closed, lo <= hi). Interval::whole() if nothing is known, which costs
-  /// the sampler its pruning there, never correctness.
+  /// A range that contains f over the whole box (closed, lo <= hi), but for places where f is NaN; rounding is
+  /// included. Interval::whole() if nothing is known, which costs the sampler its pruning there, never correctness.
   [[nodiscard]] virtual Interval bound(const Box& box) const = 0;
 
   /// A constant L with |f(p) - f(q)| <= L |p - q| everywhere, infinity if none is known. It keeps bounds tight where
   /// boxes are turned.
   [[nodiscard]] virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
 
-  /// One point; for tests and occasional use.
+  /// The value at one point, as values() gives it; for tests and occasional use.
   [[nodiscard]] double valueAt(const Vec3d& p) const;
+  /// The gradient at one point, as gradients() gives it; for tests and occasional use.
   [[nodiscard]] Vec3d gradientAt(const Vec3d& p) const;
 };
 

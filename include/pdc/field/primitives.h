@@ -2,11 +2,15 @@
 
 #include "pdc/field/field.h"
 
-/// Implicit shapes: negative inside, exact gradients, in world units. Unless said otherwise the value is the exact
-/// signed distance, and bound() uses that it changes by at most one per unit length. Sizes must be positive and finite;
-/// anything else throws std::invalid_argument.
+/// Implicit shapes in world units: negative inside, exact gradients. Unless said otherwise the value is the exact
+/// signed distance and the Lipschitz constant is 1. Where a distance has no gradient, as on a solid's axis, there is a
+/// finite one nevertheless.
+///
+/// \throws std::invalid_argument, from every function, for sizes that are not positive and finite, unless zero is
+/// allowed, for points that are not finite, and for directions that are zero or not finite.
 namespace pdc {
 
+/// The ball of `radius` about `center`.
 FieldPtr sphere(const Vec3d& center, double radius);
 
 /// Axis-aligned box by its centre and half edge lengths.
@@ -15,29 +19,30 @@ FieldPtr box(const Vec3d& center, const Vec3d& halfSize);
 /// A box whose edges and corners are rounded; `halfSize` is the outer size, `radius` at most its smallest entry.
 FieldPtr roundedBox(const Vec3d& center, const Vec3d& halfSize, double radius);
 
-/// Half-space {x : (x - point)·normal < 0}. The normal is normalised; it must not be zero.
+/// The half-space {x : (x - point)·normal < 0}. The normal is normalised.
 FieldPtr plane(const Vec3d& point, const Vec3d& normal);
 
-/// Solid cylinder with flat ends between two points.
+/// Solid cylinder with flat ends between two different points.
 FieldPtr cylinder(const Vec3d& from, const Vec3d& to, double radius);
 
-/// Cone frustum with flat ends; one of the radii may be zero.
+/// Cone frustum with flat ends at two different points; one of the radii may be zero.
 FieldPtr cappedCone(const Vec3d& from, const Vec3d& to, double radiusFrom, double radiusTo);
 
 /// Torus about `axis` (normalised): `radius` from the centre to the tube's axis, `tube` the tube's radius. With tube >
 /// radius it closes about the centre, and values inside are no more than the distance.
 FieldPtr torus(const Vec3d& center, const Vec3d& axis, double radius, double tube);
 
-/// All points within `radius` of the segment.
+/// All points within `radius` of the segment between two different points.
 FieldPtr capsule(const Vec3d& from, const Vec3d& to, double radius);
 
 /// Ellipsoid by its semi-axes. The value is a first-order distance k0 (k0 - 1) / k1 with k0 = |p/r|, k1 = |p/r²|: exact
-/// zero set and normals, not a distance away from it.
+/// zero set and normals, not a distance away from it. No Lipschitz constant is known.
 FieldPtr ellipsoid(const Vec3d& center, const Vec3d& semiAxes);
 
-/// Gyroid sheet solid: |sin x cos y + sin y cos z + sin z cos x| < thickness with x scaled by 2π/period. thickness 0
-/// takes the solid on the negative side of the gyroid. The value is not a distance; it is scaled to have about unit
-/// slope.
+/// Gyroid sheet: |sin x cos y + sin y cos z + sin z cos x| < thickness with x, y, z scaled by 2π/period; the sum lies
+/// in
+/// [-1.5, 1.5]. thickness 0 takes the solid where the sum is negative. The value is not a distance, but scaled so that
+/// its slope is at most 1.
 FieldPtr gyroid(double period, double thickness);
 
 }  // namespace pdc

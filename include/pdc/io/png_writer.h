@@ -13,10 +13,12 @@ namespace pdc {
 /// \throws std::invalid_argument if the picture has no pixels or not as many as its size says.
 [[nodiscard]] std::vector<std::uint8_t> encodePng(const Image& image);
 
-/// Throws Error unless `path` ends in .png, in any case, and lies in a folder that exists and can be written to. Makes no file.
+/// Checks that writePng() could write there, and makes no file. \throws Error unless `path` ends in .png, in any case, and lies in a
+/// folder that exists and can be written to.
 void checkPngPath(const std::filesystem::path& path);
 
-/// Writes a .png file, which appears under its name only when it is complete. \returns bytes written. \throws Error
+/// Writes a .png file, which appears under its name only when it is complete. \returns the number of bytes written.
+/// \throws what checkPngPath() and encodePng() throw, and Error if writing fails.
 std::size_t writePng(const Image& image, const std::filesystem::path& path);
 
 }  // namespace pdc

@@ -8,14 +8,16 @@
 /// Probabilistic quadrics of any distribution, by Monte Carlo (Trettner & Kobbelt 2020, section 3.4).
 namespace pdc {
 
+/// An estimate of an expected quadric.
 template <typename T>
 struct SampledQuadric {
   Quadric<T> mean;
-  Quadric<T> standardError;  ///< Of each of the ten scalars of `mean`; zero for fewer than two samples.
+  Quadric<T> standardError;  ///< One for each of the ten scalars of `mean`; zero for fewer than two samples.
 };
 
 namespace detail {
 
+/// The quadric whose ten scalars are f of those of p and q.
 template <typename T, typename F>
 constexpr Quadric<T> entrywise(const Quadric<T>& p, const Quadric<T>& q, const F& f) {
   const SymMat3<T>&a = p.A, &b = q.A;
@@ -26,14 +28,15 @@ constexpr Quadric<T> entrywise(const Quadric<T>& p, const Quadric<T>& q, const F
 
 }  // namespace detail
 
-/// The mean of `count` quadrics drawn one after the other from `sample()`: an estimate of the expected quadric
-/// (equation 16), whose error falls with the square root of count. Zero for count = 0. Allocates nothing; the same
-/// draws give the same bits. \param sample returns a Quadric<T>; T = double unless the quadrics are few.
+/// The mean of `count` quadrics drawn one after the other from `sample()`, on the calling thread: an estimate of the
+/// expected quadric (equation 16), whose error falls with the square root of count. Zero for count = 0. Allocates
+/// nothing; the same draws give the same bits. NaN in a draw becomes NaN in the mean, and what `sample` throws passes
+/// through. \param sample returns a Quadric<T>; T = double unless the quadrics are few.
 template <typename Sample>
 auto sampleExpectedQuadric(std::size_t count, Sample&& sample) {
   using Result = decltype(sample());
   using T = decltype(Result::c);
-  // Welford's recurrence: sums of squares would cancel.
+  // Welford's recurrence, because sums of squares would cancel.
   Result mean = Result::zero(), squares = Result::zero();
   for (std::size_t k = 1; k <= count; ++k) {
     const Result x = sample();

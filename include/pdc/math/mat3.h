@@ -6,7 +6,8 @@
 
 namespace pdc {
 
-/// A 3×3 matrix, rows first. Acts on column vectors.
+/// A 3×3 matrix, rows first, that acts on column vectors. A plain value; the identity by default. Indices are 0 to 2
+/// and are not checked.
 template <typename T>
 struct Mat3 {
   std::array<Vec3<T>, 3> row{Vec3<T>{1, 0, 0}, Vec3<T>{0, 1, 0}, Vec3<T>{0, 0, 1}};
@@ -30,7 +31,8 @@ struct Mat3 {
   friend constexpr Mat3 operator*(const Mat3& a, T s) { return {{a.row[0] * s, a.row[1] * s, a.row[2] * s}}; }
 };
 
-/// Inverse of a regular matrix; a singular one gives infinities or NaN, so test determinant() first.
+/// The inverse of a regular matrix, by cofactors. A singular one, or one whose determinant over- or underflows, gives
+/// infinities or NaN.
 template <typename T>
 constexpr Mat3<T> inverse(const Mat3<T>& m) {
   const T s = 1 / m.determinant();
@@ -38,6 +40,7 @@ constexpr Mat3<T> inverse(const Mat3<T>& m) {
   return {{cross(b, c) * s, cross(c, a) * s, cross(a, b) * s}};
 }
 
+/// Every entry converted as static_cast does.
 template <typename To, typename From>
 constexpr Mat3<To> matCast(const Mat3<From>& m) {
   return {{vecCast<To>(m.row[0]), vecCast<To>(m.row[1]), vecCast<To>(m.row[2])}};

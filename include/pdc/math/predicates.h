@@ -11,8 +11,9 @@ namespace pdc {
 // rest.
 //
 // Exact for finite coordinates that are zero or multiples of 2^-300 and not above 2^300, so for all finite single
-// precision numbers; beyond that products may overflow or underflow. Needs round-to-nearest without flushing of
-// denormals, and a compiler that keeps to IEEE arithmetic (no -ffast-math); fused multiply-adds do no harm here.
+// precision numbers; beyond that products may overflow or underflow. NaN and infinities give any sign. The functions
+// neither allocate nor throw. They need round-to-nearest without flushing of denormals, and a compiler that keeps to
+// IEEE arithmetic (no -ffast-math); fused multiply-adds do no harm here.
 
 namespace detail {
 
@@ -66,7 +67,7 @@ inline int orient2d(double ax, double ay, double bx, double by, double cx, doubl
   return orient2d(vecCast<double>(a), vecCast<double>(b), vecCast<double>(c), axis);
 }
 
-/// Whether the three points lie on one line; also true where two of them coincide.
+/// Whether the three points lie on one line, decided exactly; also true where two of them coincide.
 template <typename T>
 [[nodiscard]] bool collinear(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
   return orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0 && orient2d(a, b, c, 2) == 0;

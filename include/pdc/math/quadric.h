@@ -6,8 +6,8 @@
 /// Error quadrics f(x) = xᵀAx − 2bᵀx + c (Trettner & Kobbelt 2020, equation 1), and those of points and planes.
 ///
 /// Coordinates are the caller's, and b and c grow with the distance from their origin: build quadrics in a local frame
-/// (origin near the data, unit its size), where single precision loses nothing. This header needs only the standard
-/// library.
+/// (origin near the data, unit its size), where single precision loses nothing. All functions are pure: they throw
+/// nothing, and NaN and infinities pass through them. This header needs only the standard library.
 namespace pdc {
 
 /// The part of a quadric that says where its minimum is, Ax = b, without the constant that says how deep it is.
@@ -37,7 +37,7 @@ struct Quadric {
   [[nodiscard]] constexpr T operator()(const Vec3<T>& x) const { return dot(x, A * x) - 2 * dot(b, x) + c; }
   /// Half the gradient of f, Ax − b.
   [[nodiscard]] constexpr Vec3<T> halfGradient(const Vec3<T>& x) const { return A * x - b; }
-  /// A and b alone. Where a factory's result is used only so, compilers leave out the work for c.
+  /// A and b alone. If nothing else of a factory's result is used, compilers leave out the work for c.
   [[nodiscard]] constexpr NormalEquations<T> normalEquations() const { return {A, b}; }
 
   /// The same function seen from another origin: y ↦ f(y + origin).
@@ -53,7 +53,7 @@ struct Quadric {
   constexpr Quadric& operator-=(const Quadric& o) { return *this = *this - o; }
   constexpr Quadric& operator*=(T s) { return *this = *this * s; }
   friend constexpr Quadric operator+(const Quadric& p, const Quadric& q) { return {p.A + q.A, p.b + q.b, p.c + q.c}; }
-  /// A difference need not have a minimum.
+  /// A difference of quadrics need not have a minimum.
   friend constexpr Quadric operator-(const Quadric& p, const Quadric& q) { return {p.A - q.A, p.b - q.b, p.c - q.c}; }
   friend constexpr Quadric operator*(const Quadric& q, T s) { return {q.A * s, q.b * s, q.c * s}; }
   friend constexpr Quadric operator*(T s, const Quadric& q) { return q * s; }
@@ -74,7 +74,7 @@ constexpr Quadric<T> planeQuadric(const Vec3<T>& q, const Vec3<T>& n) {
 }
 
 /// Expected squared distance to a plane whose normal is distributed as N(n, Sigma_n) (equations 6-8 with Σq = 0).
-/// Positive definite whenever Sigma_n is.
+/// Positive definite whenever Sigma_n is; whether Sigma_n is a covariance is not checked.
 template <typename T>
 constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& n, const SymMat3<T>& Sigma_n) {
   const T d = dot(n, q);
@@ -82,8 +82,8 @@ constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& 
   return {outer(n) + Sigma_n, n * d + s, d * d + dot(q, s)};
 }
 
-/// The same with the point distributed as N(q, Sigma_q), independent of the normal (equations 6-8). Sigma_q adds nᵀΣq n
-/// + Tr[Σn Σq] to the constant and nothing else: it does not move the minimum.
+/// Expected squared distance to a plane whose normal is distributed as N(n, Sigma_n) and whose point, independently, as
+/// N(q, Sigma_q) (equations 6-8). Sigma_q adds nᵀΣq n + Tr[Σn Σq] to the constant and does not move the minimum.
 template <typename T>
 constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& n, const SymMat3<T>& Sigma_n,
                                                const SymMat3<T>& Sigma_q) {
@@ -92,8 +92,9 @@ constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& 
   return f;
 }
 
-/// The isotropic case, Sigma_n = sigmaNormal² I and Sigma_q = sigmaPosition² I.
-/// \param sigmaNormal standard deviation of the normal along each axis; the normal has none or its own unit.
+/// Expected squared distance for isotropic noise, Sigma_n = sigmaNormal² I and Sigma_q = sigmaPosition² I. Signs of the
+/// standard deviations do not matter.
+/// \param sigmaNormal standard deviation of the normal along each axis; it has the unit of n, mostly none.
 /// \param sigmaPosition standard deviation of the point along each axis, in the unit of q.
 template <typename T>
 constexpr Quadric<T> probabilisticPlaneQuadric(const Vec3<T>& q, const Vec3<T>& n, T sigmaNormal,
@@ -110,8 +111,8 @@ constexpr Quadric<T> normalNoiseQuadric(const SymMat3<T>& Sigma_n, T weight, con
   return {Sigma_n * weight, Sigma_n * points, squares};
 }
 
-/// Σn = σ²(I − nnᵀ): a unit normal that is uncertain in its direction only, not in its length. Singular, and so a plane
-/// quadric with it still lacks nothing: nnᵀ + Σn is positive definite for sigmaNormal > 0.
+/// Σn = σ²(I − nnᵀ): a unit normal that is uncertain in its direction only, not in its length. It is singular, but a
+/// plane quadric with it is not: nnᵀ + Σn is positive definite for sigmaNormal > 0.
 template <typename T>
 constexpr SymMat3<T> tangentialCovariance(const Vec3<T>& n, T sigmaNormal) {
   return (SymMat3<T>::identity() - outer(n)) * (sigmaNormal * sigmaNormal);

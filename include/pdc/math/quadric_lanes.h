@@ -4,17 +4,17 @@
 
 #include "pdc/math/quadric.h"
 
-/// Blocks of kLanes values side by side, each scalar an array over the lanes: structures of arrays of the size of a
-/// vector register. Long lists are arrays of blocks, so that one block's scalars share pages and the streams do not
-/// multiply.
+/// Batches: kLanes values side by side, each scalar an array over the lanes, so that one instruction takes in many.
+/// Long lists are arrays of batches, because the scalars of one batch then share pages and memory is read as one
+/// stream.
 ///
-/// A block is a plain aggregate, uninitialised unless made with {}. Batches compute with all of its lanes; what unused
-/// ones hold matters to sums only.
+/// A batch is a plain aggregate, uninitialised unless made with {}. get() and set() take lanes from 0 to kLanes - 1 and
+/// check nothing. The functions of quadric_batch.h compute with all lanes; what unused ones hold matters to sums only.
 namespace pdc {
 
 inline constexpr int kLanes = 16;
 
-/// \returns the number of blocks that hold `count` values.
+/// \returns the number of batches that hold `count` values.
 constexpr std::size_t batchCount(std::size_t count) { return (count + kLanes - 1) / kLanes; }
 
 template <typename T>
@@ -46,22 +46,25 @@ struct alignas(64) SymMat3Lanes {
   }
 };
 
-/// Planes through q with normal n.
+/// Planes through the points q with normals n.
 template <typename T>
 struct PlaneLanes {
   Vec3Lanes<T> q, n;
 };
 
-/// Corners of triangles; or, of covariances and variances, one for each corner.
+/// The corners of triangles.
 template <typename T>
 struct TriangleLanes {
   Vec3Lanes<T> p, q, r;
 };
+
+/// The covariance of each corner of triangles.
 template <typename T>
 struct TriangleCovarianceLanes {
   SymMat3Lanes<T> p, q, r;
 };
 
+/// NormalEquations, one per lane.
 template <typename T>
 struct NormalEquationsLanes {
   using Scalar = T;
@@ -73,10 +76,11 @@ struct NormalEquationsLanes {
     A.set(lane, e.A);
     b.set(lane, e.b);
   }
-  /// Leaves out the constant.
+  /// Stores A and b and leaves out the constant.
   constexpr void set(int lane, const Quadric<T>& f) { set(lane, f.normalEquations()); }
 };
 
+/// Quadrics, one per lane.
 template <typename T>
 struct QuadricLanes {
   using Scalar = T;
@@ -92,7 +96,7 @@ struct QuadricLanes {
   }
 };
 
-/// Solutions of 3×3 systems.
+/// Solutions of 3×3 systems, as solveLdlt() gives them one by one.
 template <typename T>
 struct SolutionLanes {
   Vec3Lanes<T> x;               ///< Zero where there is none.

@@ -9,7 +9,9 @@
 #include "pdc/math/quadric.h"
 #include "pdc/math/sym_mat3.h"
 
-/// Solvers for symmetric 3×3 systems and for minimising quadrics f(x) = xᵀAx − 2bᵀx. None allocates.
+/// Solvers for symmetric 3×3 systems and for minimising quadrics f(x) = xᵀAx − 2bᵀx. They are pure functions that
+/// neither allocate nor throw, and they check nothing: unless said otherwise entries are finite, and NaN gives results
+/// without meaning.
 namespace pdc {
 
 namespace detail {
@@ -33,8 +35,9 @@ constexpr bool ldlt(const SymMat3<T>& A, const Vec3<T>& b, Vec3<T>& x) {
 }  // namespace detail
 
 /// Solves Ax = b by an unrolled LDLᵀ factorisation without pivoting. Uses no fused multiply-add, which only hardware
-/// does fast and which the accuracy does not need. \returns nothing if A is not positive definite to working precision:
-/// if a pivot drowns in the rounding of its diagonal entry.
+/// does fast and which the accuracy does not need. The relative error is about the condition of A times the rounding
+/// error. \returns nothing if A is not positive definite to working precision, that is, if a pivot drowns in the
+/// rounding of its diagonal entry or in underflow; nothing too if A holds NaN. NaN in b gives NaN.
 template <typename T>
 constexpr std::optional<Vec3<T>> solveLdlt(const SymMat3<T>& A, const Vec3<T>& b) {
   Vec3<T> x{};
@@ -42,7 +45,7 @@ constexpr std::optional<Vec3<T>> solveLdlt(const SymMat3<T>& A, const Vec3<T>& b
   return x;
 }
 
-/// Eigenvalues in descending order, with unit eigenvectors.
+/// Eigenvalues in descending order, with eigenvectors of unit length, each to the value of its index.
 struct Eigen3 {
   std::array<double, 3> value;
   std::array<Vec3d, 3> vector;
@@ -52,22 +55,24 @@ struct Eigen3 {
 /// eigenvalue.
 [[nodiscard]] Eigen3 eigenSymmetric(const SymMat3<double>& A);
 
-/// A⁺b, leaving out eigenvalues at or below `relativeCutoff` times the largest: the shortest of the least-squares
-/// solutions (Lindstrom 2000). Zero for A = 0. `rank`, if given, receives the number of eigenvalues used.
+/// A⁺b without the eigenvalues at or below `relativeCutoff` (0 to 1) times the largest, nor those that are not
+/// positive: the shortest of the least-squares solutions (Lindstrom 2000). Zero for A = 0. \param[out] rank if given,
+/// the number of eigenvalues used, 0 to 3.
 [[nodiscard]] Vec3d solvePseudoInverse(const SymMat3<double>& A, const Vec3d& b, double relativeCutoff,
                                        int* rank = nullptr);
 
-/// Of the points where f is least, with the eigenvalues cut off as above, the one nearest to `reference`: the way to
-/// minimise classical quadrics, whose minimum is a line or a plane more often than a point.
+/// The minimiser of f that is nearest to `reference`, with small eigenvalues cut off and `rank` given as
+/// solvePseudoInverse() does: the way to minimise classical quadrics, whose minimum is a line or a plane more often
+/// than a point.
 [[nodiscard]] Vec3d minimizeNear(const Quadric<double>& f, const Vec3d& reference, double relativeCutoff,
                                  int* rank = nullptr);
 
-/// The point of `box` that minimises f(x) = xᵀAx − 2bᵀx; exact, not a clamp of the free minimiser.
-/// \param A positive definite.
-/// \param free the unconstrained minimiser A⁻¹b.
+/// The point of `box` that minimises f(x) = xᵀAx − 2bᵀx, exact up to rounding, where clamping the unconstrained
+/// minimiser would give another point. Where that minimiser lies in the box it is returned as it is. \param A positive
+/// definite. \param free the unconstrained minimiser A⁻¹b.
 [[nodiscard]] Vec3d minimizeInBox(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, const Box& box);
 
-/// The same for the cube [−halfSize, halfSize]³.
+/// minimizeInBox() for the cube [−halfSize, halfSize]³, halfSize >= 0.
 [[nodiscard]] Vec3d minimizeInCube(const SymMat3<double>& A, const Vec3d& b, const Vec3d& free, double halfSize);
 
 }  // namespace pdc

@@ -5,7 +5,7 @@
 
 namespace pdc {
 
-/// A symmetric 3×3 matrix: the six entries of its upper triangle.
+/// A symmetric 3×3 matrix: the six entries of its upper triangle. A plain aggregate, uninitialised unless made with {}.
 template <typename T>
 struct SymMat3 {
   T xx, xy, xz, yy, yz, zz;
@@ -14,9 +14,9 @@ struct SymMat3 {
   static constexpr SymMat3 zero() { return {0, 0, 0, 0, 0, 0}; }
 
   [[nodiscard]] constexpr T trace() const { return xx + yy + zz; }
-  /// This + sI.
+  /// This matrix + sI.
   [[nodiscard]] constexpr SymMat3 plusDiagonal(T s) const { return {xx + s, xy, xz, yy + s, yz, zz + s}; }
-  /// Entry (i, j), either triangle.
+  /// Entry (i, j) of either triangle, i and j from 0 to 2; not checked.
   [[nodiscard]] constexpr T operator()(int i, int j) const {
     const int k = i + j;
     return i == j ? (i == 0 ? xx : i == 1 ? yy : zz) : (k == 1 ? xy : k == 2 ? xz : yz);

@@ -2,14 +2,17 @@
 
 #include "pdc/math/quadric.h"
 
-/// Error quadrics of triangles (Trettner & Kobbelt 2020, section 3.2). All weigh by the square of twice the area.
+/// Error quadrics of triangles (Trettner & Kobbelt 2020, section 3.2). All weigh by the square of twice the area. They
+/// are pure functions of finite numbers that throw nothing; NaN passes through, and signs of standard deviations do not
+/// matter.
 ///
 /// Corners are relative to the caller's origin, and so is the result: pass p − o, q − o, r − o for a triangle near o.
 /// The quadrics are built from the differences q − p and r − p, then moved to the origin, so A is exact to rounding at
 /// any distance; the sum p×q + q×r + r×p, the same in exact arithmetic, has lost every digit a thousand edges away in
 /// single precision. A grows with the fourth, b with the fifth and c with the sixth power of the unit of length.
 ///
-/// The long formulas are inlined always: otherwise compilers call them, and pass their ten scalars through memory.
+/// The long formulas are always inlined, because compilers would otherwise call them and pass their scalars through
+/// memory.
 namespace pdc {
 
 /// The cross-interference matrix Ci[A, B] (equation 12): bilinear, symmetric in A and B, and 2I for A = B = I (equation
@@ -21,7 +24,8 @@ constexpr SymMat3<T> crossInterference(const SymMat3<T>& A, const SymMat3<T>& B)
           A.xy * B.xz - A.xx * B.yz + A.xz * B.xy - A.yz * B.xx, A.xx * B.yy - 2 * (A.xy * B.xy) + A.yy * B.xx};
 }
 
-/// Squared distance to the plane of the triangle, times (2 area)² (equation 9). Always of rank one.
+/// Squared distance to the plane of the triangle, times (2 area)² (equation 9). Its rank is one, or zero for corners on
+/// one line.
 template <typename T>
 constexpr Quadric<T> triangleQuadric(const Vec3<T>& p, const Vec3<T>& q, const Vec3<T>& r) {
   return planeQuadric(p, cross(q - p, r - p));
@@ -75,8 +79,8 @@ template <typename T>
   return {A, b + Ap, traceOfProduct(Sigma_p, nn) + dot(p, Ap + b + b)};
 }
 
-/// Isotropic noise of each corner's own standard deviation, in the unit of the corners: equations 11-15 with Σp =
-/// sigma_p² I, ….
+/// Expectation of triangleQuadric for isotropic noise with a standard deviation for each corner, in the unit of the
+/// corners (equations 11-15 with Σp = sigma_p² I, …).
 template <typename T>
 [[gnu::always_inline]] constexpr Quadric<T> probabilisticTriangleQuadric(const Vec3<T>& p, const Vec3<T>& q,
                                                                          const Vec3<T>& r, T sigma_p, T sigma_q,
@@ -91,15 +95,15 @@ template <typename T>
   return {A, b + Ap, sp * dot(n, n) + rp * dot(u, u) + pq * dot(v, v) + 3 * (pq * sr) + dot(p, Ap + b + b)};
 }
 
-/// Isotropic noise of one standard deviation for all corners, in their unit (equations 11-15 with Σ = sigma² I). Its
-/// minimum is at the centroid.
+/// Expectation of triangleQuadric for isotropic noise with one standard deviation for all corners, in their unit
+/// (equations 11-15 with Σ = sigma² I). Its minimum is at the centroid.
 template <typename T>
 [[gnu::always_inline]] constexpr Quadric<T> probabilisticTriangleQuadric(const Vec3<T>& p, const Vec3<T>& q,
                                                                          const Vec3<T>& r, T sigma) {
   const Vec3<T> u = q - p, v = r - p, w = r - q, m = u + v, n = cross(u, v), centroid = p + m * (T(1) / 3);
   const T s = sigma * sigma, k = 6 * (s * s);
-  // The three edges in two terms: s (uuᵀ + vvᵀ + wwᵀ) = s (3 wwᵀ + mmᵀ) / 2. Entry by entry, since g++ vectorises loops
-  // over triangles so, and not where matrices are passed around.
+  // The three edges make two terms: s (uuᵀ + vvᵀ + wwᵀ) = s (3 wwᵀ + mmᵀ) / 2. They are written entry by entry, because
+  // g++ does not vectorise loops over triangles where matrices are passed around.
   const Vec3<T> sw = w * (T(1.5) * s), sm = m * (T(0.5) * s);
   const T xx = w.x * sw.x + m.x * sm.x, yy = w.y * sw.y + m.y * sm.y, zz = w.z * sw.z + m.z * sm.z;
   const T yk = yy + k, zk = zz + k;

@@ -4,11 +4,13 @@
 
 namespace pdc {
 
-/// A point or direction of three scalars. A plain aggregate: `Vec3d v;` is uninitialised, `Vec3d{}` is zero.
+/// A point or direction of three scalars. A plain aggregate: `Vec3d v;` is uninitialised, `Vec3d{}` is zero. Arithmetic
+/// is that of the scalars, entry by entry, NaN and infinities included.
 template <typename T>
 struct Vec3 {
   T x, y, z;
 
+  /// Entry i, from 0 to 2; not checked.
   constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 
@@ -34,11 +36,14 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The Euclidean norm. Squares over- or underflow where entries exceed about 1e±154 in double or 1e±19 in single
+/// precision.
 template <typename T>
 T length(const Vec3<T>& a) {
   return std::sqrt(dot(a, a));
 }
 
+/// Every entry converted as static_cast does.
 template <typename To, typename From>
 constexpr Vec3<To> vecCast(const Vec3<From>& a) {
   return {static_cast<To>(a.x), static_cast<To>(a.y), static_cast<To>(a.z)};

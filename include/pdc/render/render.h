@@ -10,21 +10,23 @@
 
 namespace pdc {
 
+/// What colours a picture shows.
 enum class Shading {
   kClay,    ///< One matt colour under one lamp.
   kNormal,  ///< Colours of the normal's direction: right is red, up is green, towards the viewer is blue.
   kValues,  ///< Colours of `values`, from dark blue at the low end over green to yellow at the high end.
 };
 
+/// How a mesh is rendered.
 struct RenderOptions {
-  int width = 1024, height = 1024;  ///< Pixels, 1 to kMaxImageSide.
-  Vec3d towardsViewer{1, -1, 1};    ///< See viewNamed(); ignored if there is a camera.
+  int width = 1024, height = 1024;  ///< In pixels, 1 to kMaxImageSide.
+  Vec3d towardsViewer{1, -1, 1};    ///< As viewNamed() gives it; ignored if there is a camera.
   std::optional<Camera> camera{};   ///< Default: fitCamera() of the mesh.
   Shading shading = Shading::kClay;
-  bool edges = false;               ///< The mesh's edges over it; not the diagonals of quads.
-  std::span<const float> values{};  ///< For kValues: one per vertex.
+  bool edges = false;               ///< Draws the mesh's edges, but not the diagonals of quads.
+  std::span<const float> values{};  ///< One per vertex, for kValues; NaN is grey.
   float valueLo = 0, valueHi = 1;   ///< The ends of the colours; values beyond them take the end's colour.
-  int threads = 0;                  ///< 0: all. The result does not depend on it, byte for byte.
+  int threads = 0;                  ///< 0 takes all. The result does not depend on it, byte for byte.
 };
 
 inline constexpr int kMaxImageSide = 8192;

@@ -11,8 +11,8 @@
 namespace pdc {
 namespace {
 
-/// The rules: which of two values is the result, on which side of it the fillet lies, and the sign of operands after
-/// the first. NaN counts as outside of the operand that has it.
+/// Each rule says which of two values is the result, whether the fillet adds to it or takes away, and the sign of
+/// operands after the first. NaN counts as outside of the operand that has it.
 struct Unite {
   static constexpr double kBulge = -1, kSign = 1;
   static bool takesOther(double value, double other) { return other < value || std::isnan(value); }
@@ -77,19 +77,19 @@ class BooleanField final : public Field {
  private:
   struct Combination {
     double value;
-    bool other;     ///< The other value is the active one.
-    double weight;  ///< Derivative by the value that is not active, at most 1/2.
+    bool other;     ///< Whether the other value is the active one.
+    double weight;  ///< The derivative with respect to the passive value, at most 1/2.
   };
 
   [[nodiscard]] Combination combine(double value, double other) const {
     const bool takesOther = Rule::takesOther(value, other);
-    // In this order of arguments max() makes 0 of NaN.
+    // In this order of arguments max() makes NaN 0.
     const double fillet = std::max(0.0, mRadius - std::abs(value - other));
     const double weight = fillet * mHalfInverse;
     return {(takesOther ? other : value) + Rule::kBulge * 0.5 * fillet * weight, takesOther, weight};
   }
 
-  /// A weighted mean, except that an inactive operand must not leave a trace, NaN included.
+  /// A weighted mean, but where the weight is zero even NaN of the passive operand leaves no trace.
   [[nodiscard]] static double mix(const Combination& c, double own, double other) {
     const double active = c.other ? other : own, passive = c.other ? own : other;
     return c.weight > 0 ? active + (passive - active) * c.weight : active;

@@ -29,10 +29,10 @@ class MirroredField final : public Field {
   }
 
   [[nodiscard]] Interval bound(const Box& box) const override {
-    const Interval side = detail::absolute({box.lo[mAxis], box.hi[mAxis]});
+    const Interval distance = detail::absolute({box.lo[mAxis], box.hi[mAxis]});
     Box folded = box;
-    folded.lo[mAxis] = side.lo;
-    folded.hi[mAxis] = side.hi;
+    folded.lo[mAxis] = distance.lo;
+    folded.hi[mAxis] = distance.hi;
     return mField->bound(folded);
   }
 

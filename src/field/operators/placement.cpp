@@ -17,7 +17,7 @@ struct Placement {
   Mat3d linear, inverse;
   Vec3d origin;
   double valueScale;
-  double stretch;  ///< At least the norm of `linear`.
+  double stretch;  ///< Not less than the norm of `linear`.
 };
 
 /// Translation, rotation and scale, in any number and order, as one map: chains cost no more than one of them, and
@@ -56,8 +56,9 @@ class PlacedField final : public Field {
     const Box local = detail::imageBox(mPlacement.linear, mPlacement.origin, box);
     Interval range = mField->bound(local);
     const double slope = mField->lipschitz();
-    // Boxes about boxes grow from one rotation to the next, reach about the centre does not. A box that is hardly more
-    // than a point, as the centre is here, does without: nested rotations would double the work each time.
+    // Boxes about turned boxes grow from one rotation to the next, the reach about the centre does not. It is left out
+    // for a box that is hardly more than a point, as the centre is here, or else nested rotations would double the work
+    // each time.
     const bool pointLike = box.radius() <= kPointLike * detail::largestEntry(box);
     if (!mAligned && !pointLike && std::isfinite(slope)) {
       const Interval atCenter = mField->bound({local.center(), local.center()});
@@ -94,7 +95,7 @@ class PlacedField final : public Field {
     }
   }
 
-  /// Largest distance of the image of a corner from the image of the centre.
+  /// The largest distance of the image of a corner from the image of the centre.
   [[nodiscard]] double localRadius(const Box& box) const {
     const Vec3d h = box.halfSize();
     double radius = 0;
@@ -107,7 +108,7 @@ class PlacedField final : public Field {
 
   FieldPtr mField;
   Placement mPlacement;
-  bool mAligned = true;  ///< Boxes stay axis-aligned.
+  bool mAligned = true;  ///< Whether boxes stay axis-aligned.
 };
 
 /// Cosine and sine, exact for right angles.

@@ -16,14 +16,14 @@ namespace {
 
 /// Folds one coordinate into the original's cell [-period/2, period/2].
 struct AxisRepeat {
-  double period;  ///< 0: not repeated.
-  double count;   ///< Copies on each side; may be infinite.
+  double period;  ///< 0 where there are no copies.
+  double count;   ///< Copies in either direction from the original; may be infinite.
 
-  /// Number of the copy that a coordinate falls into. Does not decrease.
+  /// The number of the copy that a coordinate falls into; it does not decrease with x.
   [[nodiscard]] double copy(double x) const { return std::min(std::max(std::floor(x / period + 0.5), -count), count); }
   [[nodiscard]] double fold(double x) const { return period > 0 ? x - period * copy(x) : x; }
 
-  /// The images of a range: one piece, or two where it crosses a border between copies.
+  /// The image of a range: one piece, or two where it crosses one border between copies.
   struct Pieces {
     std::array<Interval, 2> piece;
     int size;

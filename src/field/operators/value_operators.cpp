@@ -9,7 +9,7 @@
 namespace pdc {
 namespace {
 
-/// Each operation maps a value, is ±1 steep, and rounds monotonically, so that it maps ranges without slack.
+/// Each operation maps a value with slope ±1, and rounds monotonically, so that it maps ranges without slack.
 struct Complement {
   [[nodiscard]] double map(double v) const { return -v; }
   [[nodiscard]] double slope(double) const { return -1; }

@@ -6,12 +6,13 @@
 
 namespace pdc::detail {
 
-/// Value and derivatives of a function of the distance `rho` from an axis and the position `z` along it.
+/// The value and derivatives of a function of the distance `rho` from an axis and the position `z` along it.
 struct AxialGradient {
   double value, dRho, dZ;
 };
 
-/// A solid of revolution. Profile is an exact signed distance in the half-plane rho >= 0, with
+/// A solid of revolution about the line through `origin` along the unit vector `axis`. Profile is an exact signed
+/// distance in the half-plane rho >= 0, with
 ///   double value(double rho, double z) const;
 ///   AxialGradient gradient(double rho, double z) const;   // the same value, bit for bit
 ///   double size() const;                                  // largest number in it

@@ -17,13 +17,13 @@ struct CylinderProfile {
   double radius, halfLength;
 
   [[nodiscard]] double value(double rho, double z) const {
-    const double side = rho - radius, cap = std::abs(z) - halfLength;
-    return norm(std::max(side, 0.0), std::max(cap, 0.0)) + std::min(std::max(side, cap), 0.0);
+    const double lateral = rho - radius, cap = std::abs(z) - halfLength;
+    return norm(std::max(lateral, 0.0), std::max(cap, 0.0)) + std::min(std::max(lateral, cap), 0.0);
   }
   [[nodiscard]] AxialGradient gradient(double rho, double z) const {
-    const double side = std::max(rho - radius, 0.0), cap = std::max(std::abs(z) - halfLength, 0.0);
-    const double distance = norm(side, cap), up = z < 0 ? -1 : 1, f = value(rho, z);
-    if (distance > 0) return {f, side / distance, up * cap / distance};
+    const double lateral = std::max(rho - radius, 0.0), cap = std::max(std::abs(z) - halfLength, 0.0);
+    const double distance = norm(lateral, cap), up = z < 0 ? -1 : 1, f = value(rho, z);
+    if (distance > 0) return {f, lateral / distance, up * cap / distance};
     return rho - radius >= std::abs(z) - halfLength ? AxialGradient{f, 1, 0} : AxialGradient{f, 0, up};
   }
   [[nodiscard]] double size() const { return std::max(radius, halfLength); }
@@ -58,30 +58,30 @@ struct TorusProfile {
   }
 };
 
-/// Convex polygon in the half-plane rho >= 0: two caps at z = ±halfLength, and a side between their rims.
+/// A convex polygon in the half-plane rho >= 0: two caps at z = ±halfLength, and a lateral line between their rims.
 struct ConeProfile {
   double lowerRadius, upperRadius, halfLength;
-  double sideRho, sideZ, sideLength;  ///< The unit tangent of the side, upwards, and its length.
+  double lateralRho, lateralZ, lateralLength;  ///< The unit tangent of the lateral line, upwards, and its length.
 
   ConeProfile(double lower, double upper, double half) : lowerRadius(lower), upperRadius(upper), halfLength(half) {
-    sideLength = norm(upper - lower, 2 * half);
-    sideRho = (upper - lower) / sideLength;
-    sideZ = 2 * half / sideLength;
+    lateralLength = norm(upper - lower, 2 * half);
+    lateralRho = (upper - lower) / lateralLength;
+    lateralZ = 2 * half / lateralLength;
   }
 
   [[nodiscard]] double value(double rho, double z) const { return gradient(rho, z).value; }
   [[nodiscard]] AxialGradient gradient(double rho, double z) const {
     const double dRho = rho - lowerRadius, dZ = z + halfLength;
-    const double side = dRho * sideZ - dZ * sideRho, along = dRho * sideRho + dZ * sideZ;
+    const double lateral = dRho * lateralZ - dZ * lateralRho, along = dRho * lateralRho + dZ * lateralZ;
     const double cap = std::abs(z) - halfLength, up = z < 0 ? -1 : 1;
-    const AxialGradient onSide{side, sideZ, -sideRho}, onCap{cap, 0, up};
-    if (std::max(side, cap) <= 0) return side >= cap ? onSide : onCap;
+    const AxialGradient onLateral{lateral, lateralZ, -lateralRho}, onCap{cap, 0, up};
+    if (std::max(lateral, cap) <= 0) return lateral >= cap ? onLateral : onCap;
     if (cap > 0 && rho <= (z < 0 ? lowerRadius : upperRadius)) return onCap;
-    if (side > 0 && along >= 0 && along <= sideLength) return onSide;
-    const bool upper = along > sideLength / 2;
+    if (lateral > 0 && along >= 0 && along <= lateralLength) return onLateral;
+    const bool upper = along > lateralLength / 2;
     const double x = rho - (upper ? upperRadius : lowerRadius), y = upper ? z - halfLength : z + halfLength;
     const double distance = norm(x, y);
-    return distance > 0 ? AxialGradient{distance, x / distance, y / distance} : onSide;
+    return distance > 0 ? AxialGradient{distance, x / distance, y / distance} : onLateral;
   }
   [[nodiscard]] double size() const { return std::max({lowerRadius, upperRadius, halfLength}); }
 };

@@ -11,12 +11,12 @@
 namespace pdc {
 namespace {
 
-/// All points within `radius` of the box `core`: with radius 0 the box itself.
+/// All points within `radius` of a box of half size `core`; with radius 0 that box.
 struct RoundedBox {
   Vec3d center, core;
   double radius;
 
-  /// By the distances |p - center| along each axis. Does not decrease in any of them.
+  /// The value as a function of the distances d = |p - center| along each axis; it does not decrease in any of them.
   [[nodiscard]] double valueAtDistances(const Vec3d& d) const {
     const Vec3d q = d - core;
     const Vec3d outside{std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)};

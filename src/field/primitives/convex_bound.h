@@ -7,8 +7,8 @@
 
 namespace pdc::detail {
 
-/// Range of a convex function over a box, short of rounding: it is largest at a corner, and lies above its tangent at
-/// the centre. Distances to convex solids are convex.
+/// The range of a convex function over a box, without room for rounding: the function is largest at a corner, and lies
+/// above its tangent at the centre. Distances to convex solids are convex.
 template <typename Function>
 Interval convexBound(const Function& function, const Box& box) {
   const ValueGradient tangent = function.gradient(box.center());

@@ -11,7 +11,7 @@ namespace {
 struct Ellipsoid {
   Vec3d center, axes;
 
-  /// k0 = |d/r| and k1 = |d/r²|. Neither decreases in any |d|.
+  /// k0 = |d/r| and k1 = |d/r²|, neither of which decreases in any |d|.
   struct Norms {
     double k0, k1;
   };
@@ -24,7 +24,7 @@ struct Ellipsoid {
 
   [[nodiscard]] double value(const Vec3d& p) const {
     const Norms n = norms(p - center);
-    // The limit at the centre depends on the direction; the smallest in size is taken.
+    // The limit at the centre depends on the direction; the one of smallest size is taken.
     return n.k1 > 0 ? (n.k0 - 1) * (n.k0 / n.k1) : -smallestAxis();
   }
 
@@ -42,7 +42,7 @@ struct Ellipsoid {
   [[nodiscard]] Interval bound(const Box& box) const {
     const detail::AxisDistances d(box, center);
     const Norms lo = norms(d.near), hi = norms(d.far);
-    // k0/k1 is a mean of the axes, so it lies between them even at the centre, where both vanish.
+    // k0/k1 is a mean of the axes, so the range holds even at the centre, where both vanish.
     Interval ratio{smallestAxis(), largestAxis()};
     if (lo.k1 > 0) ratio = detail::intersection(ratio, {lo.k0 / hi.k1, hi.k0 / lo.k1});
     return detail::widened(detail::product({lo.k0 - 1, hi.k0 - 1}, ratio),

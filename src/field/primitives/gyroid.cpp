@@ -32,7 +32,7 @@ Interval sine(Interval x) { return cosine(x + -std::numbers::pi / 2); }
 /// g(u) = sin x cos y + sin y cos z + sin z cos x at u = (x, y, z).
 struct Gyroid {
   double wave;       ///< 2π / period.
-  double thickness;  ///< 0: the side g < 0; otherwise |g| < thickness.
+  double thickness;  ///< The solid is g < 0 if this is 0, otherwise |g| < thickness.
 
   /// |∇g| <= √3: the first entry is (cos x, sin x)·(cos y, -sin z), so its square is at most cos²y + sin²z; the others
   /// are alike, and the three sum to 3.
@@ -64,7 +64,7 @@ struct Gyroid {
       c[i] = cosine(u);
     }
     const Interval direct = sum(sum(product(s[0], c[1]), product(s[1], c[2])), product(s[2], c[0]));
-    // Mean value form: how far g can get from its value at the centre along each axis.
+    // The mean value form adds how far g can get from its value at the centre along each axis.
     const Vec3d middle = box.center() * wave, half = box.halfSize() * wave;
     double change = 0;
     for (int i = 0; i < 3; ++i) {

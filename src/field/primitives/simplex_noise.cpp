@@ -25,13 +25,13 @@ struct Octave {
   std::uint32_t seed;
 };
 
-/// Octave by octave, a point per lane.
+/// Points are taken in batches, one per lane, octave by octave.
 class SimplexNoise final : public Field {
  public:
   explicit SimplexNoise(std::vector<Octave> octaves) : mOctaves(std::move(octaves)) {}
 
   void values(PointSpan points, double* values) const override {
-    forEachRun(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+    forEachPointBatch(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
       Lanes f;
       addOctaves(p, f);
       std::copy_n(f.value.data(), size, values + first);
@@ -39,7 +39,7 @@ class SimplexNoise final : public Field {
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    forEachRun(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
+    forEachPointBatch(points, [&](std::size_t first, std::size_t size, const Lanes& p) {
       Lanes f;
       addOctaves<true>(p, f);
       std::copy_n(f.value.data(), size, values + first);
@@ -49,7 +49,8 @@ class SimplexNoise final : public Field {
     });
   }
 
-  /// Per octave what follows from its range, from its slope, and from its slope at the centre and its curvature.
+  /// Adds for each octave the tightest of what follows from its range, from its largest slope, and from its slope at
+  /// the centre and its curvature.
   [[nodiscard]] Interval bound(const Box& box) const override {
     Interval range{0, 0};
     double magnitude = 0;
@@ -74,14 +75,14 @@ class SimplexNoise final : public Field {
   }
 
  private:
-  /// Points, or a value and a gradient of each.
+  /// A batch of points, or a value and a gradient of each.
   struct Lanes {
     alignas(64) std::array<double, kLanes> x{}, y{}, z{}, value{};
   };
 
-  /// Calls visit(first, size, points) for runs of up to kLanes points.
+  /// Calls visit(first, size, points) for batches of points; only the last one may have unused lanes, which are zero.
   template <typename Visit>
-  static void forEachRun(PointSpan points, const Visit& visit) {
+  static void forEachPointBatch(PointSpan points, const Visit& visit) {
     for (std::size_t first = 0; first < points.size; first += kLanes) {
       const std::size_t size = std::min(points.size - first, std::size_t{kLanes});
       Lanes p;
@@ -92,7 +93,7 @@ class SimplexNoise final : public Field {
     }
   }
 
-  /// Adds values, and gradients if they are wanted, to f, which is zero.
+  /// Adds the values of all octaves, and the gradients if they are wanted, to f.
   template <bool kGradients = false>
   void addOctaves(const Lanes& p, Lanes& f) const {
     detail::forEachBatch(mLevel, mOctaves.size(), [&](std::size_t i) {

@@ -11,7 +11,8 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Sine and cosine in straight code, which vectorises; with the same bits however it is compiled.
+/// Sine and cosine without branches, so that loops over them vectorise, and with the same bits however they are
+/// compiled.
 ///
 /// Within 3e-16 + |x| 2⁻⁵² of the true ones for |x| < 2⁵⁰, and in [-1, 1] for any finite x. The angle is reduced to π/4
 /// about a multiple of π/2, whose 33 leading bits are subtracted first (Cody & Waite 1980); the polynomials are those
@@ -19,7 +20,7 @@ struct SineCosine {
 inline SineCosine sineCosine(double x) {
   constexpr double kLead = 1.57079632673412561417e+00, kMiddle = 6.07710050630396597660e-11,
                    kTail = 2.02226624879595063154e-21;
-  // Adding it rounds to a whole number, whose last bits are then those of the sum.
+  // Adding kRound rounds to a whole number, whose last bits are then those of the sum.
   constexpr double kRound = 0x1.8p52, kQuarterTurn = std::numbers::pi / 4 * (1 + 1e-9);
   const double sum = x * (2 / std::numbers::pi) + kRound, turns = sum - kRound;
   const double unbounded = ((x - turns * kLead) - turns * kMiddle) - turns * kTail;
@@ -35,7 +36,7 @@ inline SineCosine sineCosine(double x) {
            z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 +
                                                   z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))));
   const double s = r + r * z * sineSeries, c = 1 - (0.5 * z - z * z * cosineSeries);
-  // Choices by bits, because branches would not vectorise.
+  // Bits make the choices, because branches would not vectorise.
   const auto quadrant = std::bit_cast<std::uint64_t>(sum), odd = 0 - (quadrant & 1);
   const auto sineBits = std::bit_cast<std::uint64_t>(s), cosineBits = std::bit_cast<std::uint64_t>(c),
              swapped = (sineBits ^ cosineBits) & odd, sineSign = (quadrant & 2) << 62,

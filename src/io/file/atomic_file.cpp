@@ -30,7 +30,7 @@ struct Target {
   }
 };
 
-/// Follows links by hand, because the last one may point to a file that does not exist yet.
+/// Links are followed by hand, because the last one may point to a file that does not exist yet.
 fs::path followLinks(const fs::path& path) {
   constexpr int kMaxLinks = 40;
   fs::path target = path;
@@ -67,7 +67,7 @@ void check(const fs::path& path, const Target& target) {
   if (::access(folder.c_str(), W_OK | X_OK) != 0) throw fileError(path, "folder " + folder.string(), errno);
 }
 
-/// Best effort: the file is complete and in place already, and some file systems cannot synchronise a folder.
+/// Failures are ignored: the file is complete and in place already, and some file systems cannot synchronise a folder.
 void synchroniseFolder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -98,7 +98,7 @@ void AtomicFile::openDevice() {
   if (mDescriptor < 0) throw fileError(mPath, "cannot be written", errno);
 }
 
-/// `permissions` 0: those of a new file.
+/// \param permissions bits to set, or 0 to leave those of a new file.
 void AtomicFile::openTemporary(mode_t permissions) {
   constexpr int kAttempts = 1000;
   static std::atomic<unsigned> counter{0};

@@ -24,9 +24,9 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends. \throws Error
+  /// Appends bytes. \throws Error if they cannot be written.
   void write(const void* data, std::size_t size);
-  /// Makes the file appear under its name; nothing can be written afterwards. \throws Error
+  /// Makes the file appear under its name; nothing can be written afterwards. \throws Error if that fails.
   void commit();
   [[nodiscard]] std::size_t bytesWritten() const { return mBytesWritten; }
 
@@ -35,15 +35,15 @@ class AtomicFile {
   void openTemporary(mode_t permissions);
   void discard() noexcept;
 
-  std::filesystem::path mPath;               ///< The path as it was given; for messages.
-  std::filesystem::path mTarget;             ///< Links resolved.
+  std::filesystem::path mPath;               ///< The path as given, for messages.
+  std::filesystem::path mTarget;             ///< The path with links resolved.
   std::filesystem::path mTemporary;          ///< Empty if the target is written directly.
   std::optional<TemporaryFileEntry> mEntry;  ///< Lives as long as the temporary file.
   int mDescriptor = -1;
   std::size_t mBytesWritten = 0;
 };
 
-/// The checks of AtomicFile's constructor, without making a file. \throws Error
+/// Makes the checks of AtomicFile's constructor, and no file. \throws Error as that does.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace pdc::detail

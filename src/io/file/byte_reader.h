@@ -9,10 +9,11 @@
 
 namespace pdc::detail {
 
-/// Reads a regular file from front to back, with checks instead of trust: whatever lies behind the end is an Error.
+/// Reads a regular file from front to back, for one thread. Whoever asks for bytes behind the end gets an Error, and
+/// nothing is allocated for them.
 class ByteReader {
  public:
-  /// \throws Error if it cannot be opened, is empty or not a regular file.
+  /// \throws Error if the file cannot be opened, is empty or not a regular file.
   explicit ByteReader(const std::filesystem::path& path);
   ~ByteReader();
   ByteReader(const ByteReader&) = delete;
@@ -21,7 +22,7 @@ class ByteReader {
   [[nodiscard]] std::uint64_t size() const { return mSize; }
   [[nodiscard]] std::uint64_t position() const { return mPosition; }
   [[nodiscard]] std::uint64_t left() const { return mEnd - mPosition; }
-  /// Moves to `position`; nothing behind `end` will be read. \throws Error if they lie outside the file.
+  /// Moves to `position`, and makes `end` the end for what follows. \throws Error if they lie outside the file.
   void seek(std::uint64_t position, std::uint64_t end);
 
   void read(void* to, std::uint64_t bytes);
@@ -34,7 +35,7 @@ class ByteReader {
     read(&value, sizeof(Number));
     return value;
   }
-  /// An unsigned 32-bit length and as many bytes.
+  /// Reads an unsigned 32-bit length and as many bytes.
   [[nodiscard]] std::string string();
 
  private:
@@ -43,7 +44,7 @@ class ByteReader {
 
   int mDescriptor = -1;
   std::uint64_t mSize = 0, mEnd = 0, mPosition = 0;
-  std::uint64_t mBufferBegin = 0, mBufferEnd = 0;  ///< What part of the file the buffer holds.
+  std::uint64_t mBufferBegin = 0, mBufferEnd = 0;  ///< The part of the file that the buffer holds.
   std::vector<char> mBuffer;
 };
 

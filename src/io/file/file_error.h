@@ -14,10 +14,10 @@ namespace pdc::detail {
 /// "what: No space left on device", from a value of errno.
 [[nodiscard]] Error systemError(std::string_view what, int errorNumber);
 
-/// "PATH: what"
+/// "PATH: what", on one line.
 [[nodiscard]] Error fileError(const std::filesystem::path& path, std::string_view what);
 
-/// "PATH: what: No space left on device", from a value of errno.
+/// "PATH: what: No space left on device", on one line, from a value of errno.
 [[nodiscard]] Error fileError(const std::filesystem::path& path, std::string_view what, int errorNumber);
 
 }  // namespace pdc::detail

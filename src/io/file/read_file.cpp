@@ -13,7 +13,7 @@
 namespace pdc::detail {
 namespace {
 
-/// Closes on all ways out.
+/// Closes the file on all ways out.
 struct Descriptor {
   int value;
   ~Descriptor() {

@@ -11,7 +11,7 @@
 namespace pdc::detail {
 namespace {
 
-// Fixed places, because a signal handler can neither lock nor touch memory that another thread may be freeing.
+// The places are fixed, because a signal handler can neither lock nor touch memory that another thread may be freeing.
 enum class SlotState { kFree, kChanging, kTaken };
 struct Slot {
   std::atomic<SlotState> state = SlotState::kFree;

@@ -4,8 +4,8 @@
 
 namespace pdc::detail {
 
-/// The temporary files that this process has not finished yet. While one of these lives, removeTemporaryFiles() knows
-/// its file.
+/// Makes a temporary file known to removeTemporaryFiles() while it lives. Safe from any thread. A few files find room;
+/// further ones, and paths longer than PATH_MAX, stay unknown, which does no other harm.
 class TemporaryFileEntry {
  public:
   explicit TemporaryFileEntry(const std::filesystem::path& path) noexcept;
@@ -17,7 +17,7 @@ class TemporaryFileEntry {
   int mSlot;
 };
 
-/// Removes them all. For a signal handler that ends the process at once: async-signal-safe.
+/// Removes the files of all entries. It is async-signal-safe, for handlers that end the process at once.
 void removeTemporaryFiles() noexcept;
 
 }  // namespace pdc::detail

@@ -21,7 +21,7 @@ class TextCursor {
   void finish() { mBuffer.resize(static_cast<std::size_t>(mNext - mBuffer.data())); }
 
   void put(char c) { *mNext++ = c; }
-  /// Shortest decimal that reads back to the same value.
+  /// Writes the shortest decimal that reads back to the same value.
   template <typename Number>
   void put(Number number) {
     mNext = std::to_chars(mNext, mNext + kMaxNumber, number).ptr;

@@ -15,7 +15,7 @@ class TextScanner {
  public:
   explicit TextScanner(std::string_view text, char comment = '#') : mText(text), mComment(comment) {}
 
-  /// Goes to the next line that has a word. False at the end of the text.
+  /// Goes to the next line that has a word. \returns false at the end of the text.
   bool nextLine() {
     while (!mText.empty()) {
       const std::size_t end = mText.find('\n');
@@ -30,7 +30,7 @@ class TextScanner {
     return false;
   }
 
-  /// The next word of the line; empty at its end.
+  /// Takes the next word of the line; it is empty at the line's end.
   std::string_view word() {
     std::size_t size = 0;
     while (size < mLine.size() && !isBlank(mLine[size])) ++size;
@@ -40,13 +40,13 @@ class TextScanner {
     return result;
   }
 
-  /// The next word as a number; nothing if it is none.
+  /// Takes the next word as a number. \returns nothing if it is none.
   template <typename Number>
   std::optional<Number> number() {
     return parse<Number>(word());
   }
 
-  /// The whole of `text` as a number. What is too large or too small for a float becomes infinite or zero.
+  /// The whole of `text` as a number. Numbers beyond the range of float become infinite or zero if double holds them.
   template <typename Number>
   static std::optional<Number> parse(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
@@ -62,9 +62,9 @@ class TextScanner {
     return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
   }
 
-  /// Lines count from 1.
+  /// The number of the line, from 1; 0 before the first.
   [[nodiscard]] std::size_t lineNumber() const { return mLineNumber; }
-  /// What comes after the line.
+  /// The text after the line.
   [[nodiscard]] std::string_view rest() const { return mText; }
 
  private:

@@ -12,7 +12,7 @@ FieldPtr readGridShape(const YamlValue& parameters, SceneContext& context) {
   GridSourceOptions options;
   if (p.has("iso")) options.iso = p["iso"].finiteNumber();
   const auto grid = readVdbGrid(context.folder / p["file"].text(), p.has("name") ? p["name"].text() : "");
-  // So that a grid has the same inside and iso value here as on its own.
+  // GridSource chooses, so that a grid has the same inside and iso value here as on its own.
   const GridSource source(grid, options);
   return gridField(grid, source.iso(), source.insideIsHigher());
 }

@@ -21,7 +21,7 @@ std::vector<FieldPtr> readOperands(const YamlValue& list, SceneContext& context)
   return operands;
 }
 
-/// A list of shapes, or a map with a list `of` and a fillet radius `smooth`.
+/// Reads a list of shapes, or a map with a list `of` and a fillet radius `smooth`.
 FieldPtr readBoolean(const YamlValue& parameters, SceneContext& context, SharpOperator sharp, SmoothOperator smooth) {
   if (parameters.isList()) return sharp(readOperands(parameters, context));
   const YamlMap p(parameters, {"smooth", "of"});

@@ -7,7 +7,8 @@
 namespace pdc::detail {
 namespace {
 
-// Far more than anyone nests by hand, and little enough for any thread's stack, here and when the field is evaluated.
+// This is far more than anyone nests by hand, and little enough for any thread's stack, here and when the field is
+// evaluated.
 constexpr int kMaxDepth = 100;
 // Aliases can make a small file stand for any number of shapes.
 constexpr std::size_t kMaxShapes = 100'000;

@@ -13,8 +13,8 @@ namespace pdc::detail {
 /// What the shapes of a scene share while it is read.
 struct SceneContext {
   std::filesystem::path folder;  ///< Where relative paths start.
-  std::size_t shapes = 0;        ///< Read so far, those of aliases each time they are used.
-  int depth = 0;                 ///< Shapes around the current one.
+  std::size_t shapes = 0;        ///< Number of shapes read so far; an alias counts each time it is used.
+  int depth = 0;                 ///< Number of shapes around the current one.
 };
 
 /// A kind of shape: its name in the file, and how its parameters make a field.
@@ -25,6 +25,7 @@ struct ShapeKind {
 
 [[nodiscard]] std::span<const ShapeKind> scenePrimitives();
 [[nodiscard]] std::span<const ShapeKind> sceneOperators();
+/// The shape `grid`. \throws YamlError, or Error where the .vdb file cannot be read.
 [[nodiscard]] FieldPtr readGridShape(const YamlValue& parameters, SceneContext& context);
 
 /// Reads a shape and all that is in it: a map with one key, the shape's name. \throws YamlError.

@@ -44,7 +44,7 @@ std::string readText(const std::filesystem::path& path, const YamlDocument& docu
   return text;
 }
 
-/// Length of the well-formed UTF-8 sequence of a text character at `at`, 0 if there is none.
+/// The length of the well-formed UTF-8 sequence of a text character at `at`; 0 if there is none.
 std::size_t characterLength(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
   const unsigned first = byte(0);

@@ -11,7 +11,7 @@
 
 namespace pdc::detail {
 
-/// An Error that already says where: "FILE:LINE:COLUMN: what".
+/// An Error whose message says where it is: "FILE:LINE:COLUMN: what".
 class YamlError final : public Error {
  public:
   using Error::Error;
@@ -23,22 +23,22 @@ struct YamlNode {
 
   Kind kind = Kind::kNull;
   bool plain = true;         ///< A scalar without quotes or tag, so that it may be a number.
-  int line = 1, column = 1;  ///< From 1.
-  std::string text{};        ///< Of a scalar.
-  std::vector<YamlNode*>
-      children{};  ///< Items of a list; keys and values of a map, alternating, as they stand in the file.
+  int line = 1, column = 1;  ///< Counted from 1.
+  std::string text{};        ///< A scalar's text.
+  /// Items of a list, or keys and values of a map in turns, in the order of the file.
+  std::vector<YamlNode*> children{};
 };
 
 /// A YAML file as it stands: order, repeated keys and positions are kept.
 struct YamlDocument {
   std::string file;
-  std::deque<YamlNode> nodes;  ///< Values point to each other, so they must not move.
+  std::deque<YamlNode> nodes;  ///< A deque, because nodes point to each other and must not move.
   YamlNode* root = nullptr;
 
   [[noreturn]] void fail(int line, int column, std::string_view what) const;
 };
 
-/// `text`, cut at about `bytes` bytes; for messages.
+/// `text` for messages, cut before a character at about `bytes` bytes.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t bytes);
 
 /// Reads a file of one document: UTF-8 text, at most 16 MiB, a million values. \throws YamlError for anything else.

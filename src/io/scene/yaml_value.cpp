@@ -40,7 +40,7 @@ std::optional<T> parse(const YamlNode& node) {
   return value;
 }
 
-/// YAML's own spelling of what is not a finite number.
+/// The number that YAML spells in a way of its own because it is not finite.
 std::optional<double> parseSpecial(const YamlNode& node) {
   if (node.kind != YamlNode::Kind::kScalar || !node.plain) return std::nullopt;
   if (node.text == ".inf" || node.text == "+.inf") return std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ class YamlValue {
       : mDocument(&document), mNode(&node), mName(std::move(name)) {}
 
   [[nodiscard]] bool isList() const { return mNode->kind == YamlNode::Kind::kList; }
-  /// What the value is called where it stands: its key.
+  /// The key that the value stands behind, or the name that it was given.
   [[nodiscard]] const std::string& name() const { return mName; }
 
   [[nodiscard]] std::string text() const;
@@ -28,19 +28,20 @@ class YamlValue {
   [[nodiscard]] double number() const;
   [[nodiscard]] double finiteNumber() const;
   [[nodiscard]] double positiveNumber() const;
+  /// A whole number from `least` to `most`.
   [[nodiscard]] long long integer(long long least, long long most) const;
   /// Three finite numbers.
   [[nodiscard]] Vec3d vector() const;
   [[nodiscard]] Vec3d positiveVector() const;
   [[nodiscard]] std::vector<YamlValue> list() const;
-  /// A list of so many items.
+  /// The items of a list that must have `size` of them.
   [[nodiscard]] std::vector<YamlValue> list(std::size_t size) const;
-  /// Keys, each once, and values of a map. The values are named by the keys.
+  /// The keys, which must not repeat, and values of a map. The values are named by the keys.
   [[nodiscard]] std::vector<std::pair<YamlValue, YamlValue>> entries() const;
 
-  /// "FILE:LINE:COLUMN: what"
+  /// \throws YamlError "FILE:LINE:COLUMN: what".
   [[noreturn]] void fail(std::string_view what) const;
-  /// "FILE:LINE:COLUMN: name must be wanted, not the value"
+  /// \throws YamlError "FILE:LINE:COLUMN: name must be wanted, not the value".
   [[noreturn]] void failNot(std::string_view wanted) const;
 
  private:
@@ -53,7 +54,7 @@ class YamlValue {
   std::string mName;
 };
 
-/// The parameters of something: a map that may hold only the keys given, each at most once.
+/// A map that may hold only the keys given, each at most once: parameters of a shape or of the scene.
 class YamlMap {
  public:
   YamlMap(const YamlValue& value, std::initializer_list<std::string_view> keys);

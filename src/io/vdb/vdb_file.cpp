@@ -13,10 +13,10 @@ namespace pdc::detail {
 namespace {
 
 constexpr char kNameSeparator = '\x1e';
-constexpr std::uint32_t kOldestVersion = 222;  // since OpenVDB 1.1; before, trees were laid out differently
+constexpr std::uint32_t kOldestVersion = 222;  // OpenVDB 1.1; older ones laid trees out differently.
 constexpr std::uint32_t kNewestVersion = 224;
 
-/// Size of what a map writes about itself: vectors and matrices of doubles.
+/// The bytes that a map writes about itself, which are vectors and matrices of doubles.
 std::optional<std::uint64_t> mapSize(std::string_view type) {
   constexpr std::uint64_t kVector = 3 * 8, kMatrix = 16 * 8, kScale = 5 * kVector;
   if (type == "UniformScaleMap" || type == "ScaleMap") return kScale;
@@ -32,7 +32,7 @@ std::string lengthAndBytes(const std::string& text) {
 }
 
 std::string readMap(ByteReader& bytes) {
-  constexpr std::uint64_t kFrustumBytes = 8 * 8;  // box, taper and depth; another map follows
+  constexpr std::uint64_t kFrustumBytes = 8 * 8;  // Box, taper and depth, before another map.
   std::string type = bytes.string();
   std::string result = lengthAndBytes(type);
   if (type == "NonlinearFrustumMap") {
@@ -95,7 +95,7 @@ void VdbFile::readEntries() {
     if (entry.half) entry.type.resize(entry.type.size() - kHalfSuffix.size());
     entry.parent = mBytes.string();
     const auto begin = mBytes.get<std::uint64_t>();
-    mBytes.skip(sizeof(std::uint64_t));  // where the buffers start; nobody asks for it
+    mBytes.skip(sizeof(std::uint64_t));  // Where the buffers start, which nobody asks for.
     const auto end = mBytes.get<std::uint64_t>();
     if (mHasOffsets) {
       if (begin < mBytes.position() || begin > end || end > mBytes.size())
@@ -105,7 +105,7 @@ void VdbFile::readEntries() {
       entry.end = end;
       mBytes.seek(end, mBytes.size());
     } else {
-      // Written to a stream that cannot seek: where a grid ends is known only after walking through it.
+      // The file was written to a stream that cannot seek, so only walking through a grid tells where it ends.
       entry.begin = mBytes.position();
       entry.end = mBytes.size();
       const VdbGridHead head = readHead(entry);
@@ -123,7 +123,7 @@ VdbGridHead VdbFile::readHead(const VdbEntry& entry) {
   head.metadata = readMetadata();
   head.transform = readMap(mBytes);
   head.tree = mBytes.position();
-  // What a grid says of itself counts more than what the table of contents says; OpenVDB has it so.
+  // What a grid says of itself counts more than the table of contents, as in OpenVDB.
   head.half = entry.half;
   for (const VdbMetadata& metadata : head.metadata)
     if (metadata.name == "is_saved_as_half_float" && metadata.type == "bool" && metadata.value.size() == 1)

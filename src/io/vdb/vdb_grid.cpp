@@ -37,7 +37,7 @@ openvdb::TreeBase::Ptr readTree(const std::filesystem::path& path, VdbFile& file
   return grid->baseTreePtr();
 }
 
-/// Leaves of bool grids carry their origin a second time, and OpenVDB believes that one.
+/// Leaves of bool grids carry their origin a second time, and OpenVDB believes the second without looking at the first.
 void checkLeafOrigins(const openvdb::GridBase& grid) {
   const auto* bools = dynamic_cast<const openvdb::BoolGrid*>(&grid);
   if (bools == nullptr) return;

@@ -7,11 +7,11 @@
 
 #include "io/vdb/vdb_file.h"
 
-/// From the bytes of a VdbFile to OpenVDB's objects. All of these throw Error or what OpenVDB throws.
+/// Functions that turn the bytes of a VdbFile into OpenVDB's objects. All throw Error or what OpenVDB throws.
 namespace pdc::detail {
 
-/// Metadata whose type OpenVDB knows and whose size is that type's; OpenVDB's own reader would read past what is there.
-/// Temporary ones ("__..."), which only speed up delayed loading, are left out.
+/// The metadata whose type OpenVDB knows. \throws Error where the size is not the type's, because OpenVDB would read
+/// past what is there. Temporary ones ("__..."), which only speed up delayed loading, are left out.
 [[nodiscard]] openvdb::MetaMap toMetaMap(const std::vector<VdbMetadata>& all);
 
 [[nodiscard]] openvdb::math::Transform::Ptr toTransform(const VdbFile& file, const VdbGridHead& head);

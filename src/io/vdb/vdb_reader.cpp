@@ -24,7 +24,7 @@ using detail::VdbGridHead;
 using ContourableGrids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
                                            openvdb::Int64Grid, openvdb::BoolGrid>;
 
-/// Runs `action` and gives every error the name of the file.
+/// Runs `action` and puts the file's name before the message of every error.
 template <typename Action>
 auto withFileName(const std::filesystem::path& path, Action&& action) {
   try {
@@ -37,7 +37,7 @@ auto withFileName(const std::filesystem::path& path, Action&& action) {
   }
 }
 
-/// "float" of "Tree_float_5_4_3".
+/// The value's part of a tree's type: "float" for "Tree_float_5_4_3".
 std::string valueType(std::string type) {
   if (type.starts_with("Tree_")) type.erase(0, 5);
   const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
@@ -73,7 +73,7 @@ void setBounds(VdbGridInfo& info, const openvdb::Coord& lo, const openvdb::Coord
   info.boundsHi = {hi.x(), hi.y(), hi.z()};
 }
 
-/// What can be known without the tree. The voxels of a grid that cannot be contoured are those that its writer noted.
+/// All that can be known without the tree. Bounds and number of voxels are what the file's writer noted.
 VdbGridInfo describe(const VdbFile& file, const VdbEntry& entry, const VdbGridHead& head) {
   using openvdb::GridBase;
   const openvdb::MetaMap map = detail::toMetaMap(head.metadata);

@@ -17,9 +17,10 @@
 namespace pdc::detail {
 namespace {
 
-/// Bytes of a value; with 16-bit storage `half` of them.
+/// Bytes of a value.
 struct ValueSize {
-  std::uint64_t full, half;
+  std::uint64_t full;
+  std::uint64_t half;  ///< The bytes where reals are stored with 16 bits.
 };
 
 std::optional<ValueSize> valueSize(const std::string& type) {
@@ -38,6 +39,7 @@ constexpr std::size_t kBloscHeaderBytes = 16;
 
 using Origin = std::array<std::int32_t, 3>;
 
+/// One walk through a tree, which ends at the first thing that is wrong.
 class TreeWalk {
  public:
   TreeWalk(ByteReader& bytes, const VdbTreeFormat& format, ValueSize size)
@@ -87,7 +89,7 @@ class TreeWalk {
     return origin;
   }
 
-  /// Topology of an internal node and what is below it.
+  /// Checks the topology of an internal node and of all that is below it.
   void checkNode(int log2Dim) {
     const std::string children = mBytes.bytes(maskBytes(log2Dim)), active = mBytes.bytes(maskBytes(log2Dim));
     for (std::size_t i = 0; i < children.size(); ++i)
@@ -112,7 +114,7 @@ class TreeWalk {
     }
   }
 
-  /// The values of one node, in the layout of openvdb::io::readCompressedValues.
+  /// Checks the values of one node, which have the layout of openvdb::io::readCompressedValues.
   void checkValues(int log2Dim, const std::string& active, bool topology) {
     const auto kind = mBytes.get<std::int8_t>();
     if (kind < openvdb::io::NO_MASK_OR_INACTIVE_VALS || kind > openvdb::io::NO_MASK_AND_ALL_VALS)
@@ -126,11 +128,11 @@ class TreeWalk {
     const bool onlyActive =
         (mCompression & openvdb::io::COMPRESS_ACTIVE_MASK) != 0 && kind != openvdb::io::NO_MASK_AND_ALL_VALS;
     const std::uint64_t count = onlyActive ? countBits(active) : nodeValues(log2Dim);
-    if (count == 0 && mStoredSize < mSize) return;  // halves: nothing is stored for nothing
+    if (count == 0 && mStoredSize < mSize) return;  // No size is stored for no halves.
     checkData(count * mStoredSize, topology);
   }
 
-  /// `size` bytes, as they are or compressed.
+  /// Checks values of `size` bytes, which are stored as they are or compressed.
   void checkData(std::uint64_t size, bool topology) {
     const bool blosc = (mCompression & openvdb::io::COMPRESS_BLOSC) != 0;
     if (!blosc && (mCompression & openvdb::io::COMPRESS_ZIP) == 0) {
@@ -138,7 +140,7 @@ class TreeWalk {
       return;
     }
     const auto stored = mBytes.get<std::int64_t>();
-    if (stored <= 0) {  // not compressed after all
+    if (stored <= 0) {  // The writer found that compression does not pay.
       if (std::uint64_t{0} - static_cast<std::uint64_t>(stored) != size) throw damaged("size of a block of values");
       takeData(size, topology);
       return;
@@ -155,7 +157,7 @@ class TreeWalk {
     }
   }
 
-  /// Values as they are. Below the topology there are no bools.
+  /// Goes past values that are stored as they are. Below the topology there are no bools to check.
   void takeData(std::uint64_t size, bool topology) {
     if (topology && mIsBool) {
       checkBools(mBytes.bytes(size));
@@ -164,7 +166,7 @@ class TreeWalk {
     }
   }
 
-  /// The decompressor trusts the sizes in the block's own header.
+  /// The sizes in Blosc's own header are checked, because the decompressor trusts them.
   void checkBloscHeader(const std::string& header, std::uint64_t storedSize, std::uint64_t size) const {
     constexpr std::size_t kSizeAt = 4, kStoredSizeAt = 12;
     if (header.size() < kBloscHeaderBytes) throw damaged("size of a block of values");
@@ -174,11 +176,11 @@ class TreeWalk {
     if (announced != size || stored != storedSize) throw damaged("size of a block of values");
   }
 
-  void checkDecompression(const std::string& block, std::uint64_t size) const {
+  void checkDecompression(const std::string& compressed, std::uint64_t size) const {
     const bool blosc = (mCompression & openvdb::io::COMPRESS_BLOSC) != 0;
-    if (blosc) checkBloscHeader(block, block.size(), size);
-    const auto stored = static_cast<std::int64_t>(block.size());
-    std::istringstream stream(std::string(reinterpret_cast<const char*>(&stored), sizeof(stored)) + block);
+    if (blosc) checkBloscHeader(compressed, compressed.size(), size);
+    const auto stored = static_cast<std::int64_t>(compressed.size());
+    std::istringstream stream(std::string(reinterpret_cast<const char*>(&stored), sizeof(stored)) + compressed);
     std::string values(size, '\0');
     try {
       (blosc ? openvdb::io::bloscFromStream : openvdb::io::unzipFromStream)(stream, values.data(), values.size());

@@ -14,7 +14,7 @@
 
 namespace pdc {
 
-/// For tests that write grids with OpenVDB and read them with us.
+/// A fixture for tests that write grids with OpenVDB and read them with pdc.
 class VdbFiles : public testing::Test {
  protected:
   void SetUp() override { openvdb::initialize(); }

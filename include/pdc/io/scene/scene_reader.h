@@ -8,21 +8,21 @@
 
 namespace pdc {
 
-/// The answers a scene file says its mesh must give; each may be absent. Used by the tests.
+/// What a scene file says about its mesh, for tests to hold it to; each answer may be absent.
 struct SceneExpectation {
   std::optional<long long> eulerNumber;
-  std::optional<double> area, volume;  ///< World units.
-  double relativeTolerance = 0.01;     ///< For area and volume.
+  std::optional<double> area, volume;  ///< In world units squared and cubed, > 0.
+  double relativeTolerance = 0.01;     ///< Of area and volume, > 0.
 };
 
 /// An implicit scene: where to look, how finely, and the function.
 struct Scene {
-  std::string name;      ///< Optional title.
-  Box box{};             ///< World units.
-  double voxelSize = 0;  ///< World units, > 0; from `voxel_size`, or the longest side of the box / `resolution`.
-  std::optional<double> sigmaNormal;  ///< >= 0 or infinity.
-  double iso = 0;
-  FieldPtr field;
+  std::string name;      ///< A title; empty without one.
+  Box box{};             ///< In world units; lo < hi on every axis.
+  double voxelSize = 0;  ///< In world units, > 0: `voxel_size`, or the longest edge of the box / `resolution`.
+  std::optional<double> sigmaNormal;  ///< Standard deviation of the normals' components, >= 0 or infinite.
+  double iso = 0;                     ///< The surface is where the field has this value.
+  FieldPtr field;                     ///< Never null.
   SceneExpectation expect;
 };
 

@@ -13,42 +13,44 @@
 
 namespace pdc::detail {
 
-/// A range of values to be filled; empty (lo > hi) until then. NaN leaves no trace.
+/// A range without values, for include() to fill: lo > hi.
 inline constexpr Interval kEmptyRange{std::numeric_limits<double>::infinity(),
                                       -std::numeric_limits<double>::infinity()};
+
+/// Grows the range to hold the value; NaN leaves no trace.
 inline void include(Interval& range, double value) {
   range.lo = value < range.lo ? value : range.lo;
   range.hi = value > range.hi ? value : range.hi;
 }
 
-/// Smallest and largest voxel of any index box, from stored ranges of blocks of 8, 16, 32... voxels a side.
+/// Smallest and largest voxel of any index box, from the stored ranges of cubes with edges of 8, 16, 32... voxels.
 ///
-/// Only blocks that are not all of one value are stored, so memory grows with the number of leaves. The tree must not
+/// Only cubes that are not all of one value are stored, so memory grows with the number of leaves. The tree must not
 /// change.
 template <typename Tree>
-class BlockRanges {
+class VoxelRanges {
  public:
-  explicit BlockRanges(const Tree& tree) : mTree(&tree) {
+  explicit VoxelRanges(const Tree& tree) : mTree(&tree) {
     insertLeaves();
     insertTiles();
-    // Upwards until a level is so small that it can be searched entry by entry.
+    // Levels are added until one is so small that it can be searched entry by entry.
     for (std::size_t level = 0; level + 1 < mLevels.size() || mLevels[level].size() > kSmallLevel; ++level) {
       if (level + 1 == mLevels.size()) mLevels.emplace_back();
       insertParents(level);
     }
   }
 
-  /// Range of the voxels in [lo, hi], both included, and perhaps of some around them; empty if all are NaN.
+  /// The range of the voxels in [lo, hi], both included, and perhaps of some around them; empty if all are NaN.
   [[nodiscard]] Interval range(const openvdb::Coord& lo, const openvdb::Coord& hi) const {
     std::size_t level = 0;
-    while (level < mLevels.size() && !fewBlocks(blockOf(lo, level), blockOf(hi, level))) ++level;
+    while (level < mLevels.size() && !fewCubes(cubeOf(lo, level), cubeOf(hi, level))) ++level;
     if (level == mLevels.size()) return rangeFromTop(lo, hi);
-    const openvdb::Coord first = blockOf(lo, level), last = blockOf(hi, level);
+    const openvdb::Coord first = cubeOf(lo, level), last = cubeOf(hi, level);
     const typename Accessor::Type accessor(*mTree);
     Interval range = kEmptyRange;
     for (int x = first.x(); x <= last.x(); ++x)
       for (int y = first.y(); y <= last.y(); ++y)
-        for (int z = first.z(); z <= last.z(); ++z) range = hull(range, blockRange(level, {x, y, z}, accessor));
+        for (int z = first.z(); z <= last.z(); ++z) range = hull(range, cubeRange(level, {x, y, z}, accessor));
     return range;
   }
 
@@ -67,40 +69,40 @@ class BlockRanges {
 
   static constexpr std::size_t kLeafLog2 = Tree::LeafNodeType::LOG2DIM;
   static constexpr std::size_t kSmallLevel = 8;
-  static constexpr int kBlocksPerAxis = 4;
+  static constexpr int kCubesPerAxis = 4;  ///< A box is looked up cube by cube on the first level of so few.
 
-  /// Shifts of negative numbers round down, as they should.
-  static openvdb::Coord blockOf(const openvdb::Coord& voxel, std::size_t level) {
+  /// The cube that holds a voxel, for negative coordinates too, because shifts round down.
+  static openvdb::Coord cubeOf(const openvdb::Coord& voxel, std::size_t level) {
     const auto shift = static_cast<int>(kLeafLog2 + level);
     return {voxel.x() >> shift, voxel.y() >> shift, voxel.z() >> shift};
   }
 
-  static bool fewBlocks(const openvdb::Coord& first, const openvdb::Coord& last) {
+  static bool fewCubes(const openvdb::Coord& first, const openvdb::Coord& last) {
     bool few = true;
-    for (int i = 0; i < 3; ++i) few = few && std::int64_t{last[i]} - first[i] < kBlocksPerAxis;
+    for (int i = 0; i < 3; ++i) few = few && std::int64_t{last[i]} - first[i] < kCubesPerAxis;
     return few;
   }
 
-  /// A block without an entry lies in one tile, or in the background, and has one value.
-  [[nodiscard]] Interval blockRange(std::size_t level, const openvdb::Coord& block,
-                                    const typename Accessor::Type& accessor) const {
-    const auto found = mLevels[level].find(block);
+  /// A cube without an entry lies in one tile, or in the background, and has one value.
+  [[nodiscard]] Interval cubeRange(std::size_t level, const openvdb::Coord& cube,
+                                   const typename Accessor::Type& accessor) const {
+    const auto found = mLevels[level].find(cube);
     if (found != mLevels[level].end()) return found->second;
     const auto shift = static_cast<int>(kLeafLog2 + level);
     Interval range = kEmptyRange;
-    include(range, accessor.getValue({block.x() << shift, block.y() << shift, block.z() << shift}));
+    include(range, accessor.getValue({cube.x() << shift, cube.y() << shift, cube.z() << shift}));
     return range;
   }
 
   [[nodiscard]] Interval rangeFromTop(const openvdb::Coord& lo, const openvdb::Coord& hi) const {
     const std::size_t level = mLevels.size() - 1;
-    const openvdb::Coord first = blockOf(lo, level), last = blockOf(hi, level);
+    const openvdb::Coord first = cubeOf(lo, level), last = cubeOf(hi, level);
     Interval range = kEmptyRange;
     include(range, mTree->background());
-    for (const auto& [block, blockRange] : mLevels[level]) {
+    for (const auto& [cube, cubeRange] : mLevels[level]) {
       bool inside = true;
-      for (int i = 0; i < 3; ++i) inside = inside && first[i] <= block[i] && block[i] <= last[i];
-      if (inside) range = hull(range, blockRange);
+      for (int i = 0; i < 3; ++i) inside = inside && first[i] <= cube[i] && cube[i] <= last[i];
+      if (inside) range = hull(range, cubeRange);
     }
     return range;
   }
@@ -114,7 +116,7 @@ class BlockRanges {
     });
     mLevels.emplace_back();
     mLevels[0].reserve(ranges.size());
-    for (std::size_t i = 0; i < ranges.size(); ++i) mLevels[0].emplace(blockOf(leaves.leaf(i).origin(), 0), ranges[i]);
+    for (std::size_t i = 0; i < ranges.size(); ++i) mLevels[0].emplace(cubeOf(leaves.leaf(i).origin(), 0), ranges[i]);
   }
 
   void insertTiles() {
@@ -128,7 +130,7 @@ class BlockRanges {
       if (mLevels.size() <= level) mLevels.resize(level + 1);
       Interval range = kEmptyRange;
       include(range, *tile);
-      mLevels[level].emplace(blockOf(box.min(), level), range);
+      mLevels[level].emplace(cubeOf(box.min(), level), range);
     }
   }
 
@@ -140,13 +142,13 @@ class BlockRanges {
       if (!isNew) continue;
       for (int i = 0; i < 8; ++i) {
         const openvdb::Coord child(2 * parent.x() + (i & 1), 2 * parent.y() + (i >> 1 & 1), 2 * parent.z() + (i >> 2));
-        place->second = hull(place->second, blockRange(level, child, accessor));
+        place->second = hull(place->second, cubeRange(level, child, accessor));
       }
     }
   }
 
   const Tree* mTree;
-  std::vector<Level> mLevels;  ///< By block coordinate; level n has blocks of 8·2ⁿ voxels a side.
+  std::vector<Level> mLevels;  ///< Keyed by cubeOf(); the cubes of level n have edges of 8·2ⁿ voxels.
 };
 
 }  // namespace pdc::detail
