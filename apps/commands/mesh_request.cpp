@@ -8,6 +8,7 @@
 #include "commands/input_kind.h"
 #include "io/mesh/mesh_format.h"
 #include "pdc/error.h"
+#include "pdc/sample/implicit/field_source.h"
 #include "terminal/numbers.h"
 
 namespace pdc {
@@ -15,9 +16,6 @@ namespace {
 
 const std::map<std::string, Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
-
-// FieldSource's own limit on voxels per axis.
-constexpr int kMaxResolution = 1 << 20;
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   const auto finite = [](double v) { return std::isfinite(v); };
@@ -74,7 +72,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
       ->group(scenes);
-  addInteger(command, "--resolution", request.resolution, 1, kMaxResolution, "Cells along the longest side of the box")
+  addInteger(command, "--resolution", request.resolution, 1, kMaxVoxelsPerAxis, "Cells along the longest side of the box")
       ->type_name("N")
       ->group(scenes);
 }
