@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "commands/input_kind.h"
-#include "pdc/extract/contour.h"
 #include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/sample/implicit/field_source.h"

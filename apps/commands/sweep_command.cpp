@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "commands/input_kind.h"
-#include "commands/mesh_input.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/scene/scene_reader.h"
@@ -31,7 +29,7 @@ auto reading(const std::filesystem::path& path, bool quiet, const Read& read) {
   return read();
 }
 
-SweepTruth truthOf(const MeshInput& input) {
+SweepTruth truthOf(const Input& input) {
   if (input.field == nullptr) return {};
   return {.field = input.field,
           .reference = nullptr,
@@ -40,18 +38,15 @@ SweepTruth truthOf(const MeshInput& input) {
 
 /// What --reference names: a scene on its own lattice, or a mesh.
 SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
-  if (inputKind(path) == InputKind::kScene) {
-    MeshRequest scene;
-    scene.input = path;
-    return truthOf(reading(path, quiet, [&] { return openMeshInput(scene); }));
-  }
+  if (inputKind(path) == InputKind::kScene)
+    return truthOf(reading(path, quiet, [&] { return openInput(path); }));
   auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMesh(path); }));
   if (mesh->empty()) throw Error(fmt::format("{}: the reference has no faces", path.string()));
   return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
 }
 
-SweepInput openInput(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
-  MeshInput input = reading(mesh.input, mesh.quiet, [&] { return openMeshInput(mesh); });
+SweepInput openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
+  Input input = reading(mesh.input, mesh.quiet, [&] { return openInput(mesh.input, mesh.inputOptions()); });
   SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
   return {std::move(input.source), std::move(truth)};
 }
@@ -60,7 +55,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
   const SweepTruth reference =
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const std::string parameter = request.parameter();
-  SweepInput first = openInput(request, request.mesh, reference);
+  SweepInput first = openStep(request, request.mesh, reference);
   SweepOptions options{.contour = request.mesh.contourOptions(kDefaultSigmaNormal), .truth = {}};
   if (parameter == "sigma_n") {
     options.truth = std::move(first.truth);
@@ -71,7 +66,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       [&](double value) {
         MeshRequest mesh = request.mesh;
         (parameter == "iso" ? mesh.iso : mesh.voxelSize) = value;
-        return openInput(request, mesh, reference);
+        return openStep(request, mesh, reference);
       },
       options, monitor);
 }

@@ -56,9 +56,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addReals(
       command, "--voxel-size", request.voxelSizes, [](double v) { return v > 0 && std::isfinite(v); },
       "finite numbers > 0", "Of a scene: edges of a cell, in world units");
-  command.add_option("--placement", mesh.placement, "Where vertices may lie (certified), as for pdc mesh")
-      ->type_name("WHERE")
-      ->check(CLI::IsMember({"certified", "cell", "free"}));
+  addPlacement(command, mesh.placement, "Where vertices may lie (certified), as for pdc mesh");
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
   addNoiseGrids(command, mesh, "OPTIONS");

@@ -5,11 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/mesh/distance.h"
 #include "pdc/mesh/mesh_report.h"
@@ -25,17 +25,6 @@ namespace {
 
 /// Parts whose faces turn by less than this about a vertex are flat: half of what counts as a crease elsewhere.
 constexpr double kFlatDegrees = 15;
-
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - mStart).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
-};
 
 /// To first order.
 Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field) {
@@ -115,17 +104,17 @@ void checkValues(const std::vector<double>& values) {
 Sweep runSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
                const Monitor& monitor) {
   Sweep sweep{.parameter = "sigma_n"};
-  const Stopwatch sampling;
+  detail::Stopwatch sampling;
   const SampledSource sampled(source, monitor);
-  sweep.secondsSample = sampling.seconds();
+  sweep.secondsSample = sampling.lap();
   for (const double sigma : sigmas) {
     SweepStep step{.value = sigma, .voxelSize = source.map().voxelSize()};
     ContourOptions contourOptions = options.contour;
     contourOptions.sigmaNormal = sigma;
-    const Stopwatch contouring;
+    detail::Stopwatch contouring;
     sweep.meshes.push_back(
         contour(sampled, contourOptions, &step.contour, partOf(monitor, sweep.steps.size(), 2 * sigmas.size())));
-    step.seconds = contouring.seconds();
+    step.seconds = contouring.lap();
     sweep.steps.push_back(step);
   }
   // The same vertices for all: those that are flat where no normal has a say.
@@ -148,10 +137,10 @@ Sweep runInputs(const std::string& parameter, const std::vector<double>& values,
   for (const double value : values) {
     const SweepInput input = open(value);
     SweepStep step{.value = value, .voxelSize = input.source->map().voxelSize()};
-    const Stopwatch contouring;
+    detail::Stopwatch contouring;
     Mesh mesh =
         contour(*input.source, options.contour, &step.contour, partOf(monitor, sweep.steps.size(), values.size()));
-    step.seconds = contouring.seconds();
+    step.seconds = contouring.lap();
     measure(mesh, flatVertices(mesh, kFlatDegrees), input.truth, step);
     sweep.steps.push_back(step);
     sweep.meshes.push_back(std::move(mesh));
