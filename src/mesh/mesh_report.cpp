@@ -281,7 +281,7 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 
 }  // namespace
 
-MeshReport analyze(const Mesh& mesh) {
+MeshReport analyze(const Mesh& mesh, const Monitor& monitor) {
   detail::checkIndices(mesh);
   MeshReport report;
   report.vertices = mesh.positions.size();
@@ -289,9 +289,12 @@ MeshReport analyze(const Mesh& mesh) {
   report.triangles = mesh.triangles.size();
   report.nonFiniteVertices = sumOver<std::size_t>(
       mesh.positions.size(), [&](std::size_t i, std::size_t& count) { count += !isFinite(mesh.positions[i]); });
+  monitor.throwIfStopped();
   countFaces(mesh, report);
 
+  monitor.throwIfStopped();
   const Buffer<Corner> corners = sortedCorners(mesh);
+  monitor.throwIfStopped();
   const FanCounts fans = countFans(corners);
   report.edges = fans.edges;
   report.boundaryEdges = fans.boundary;
@@ -301,6 +304,7 @@ MeshReport analyze(const Mesh& mesh) {
   report.unusedVertices = report.vertices - fans.usedVertices;
   report.eulerNumber = static_cast<long long>(fans.usedVertices) - static_cast<long long>(fans.edges) +
                        static_cast<long long>(faceCount(mesh));
+  monitor.throwIfStopped();
   report.components = countComponents(mesh, corners);
   report.bounds = boundsOf(mesh, corners);
   const Measures measures = measure(mesh, report.bounds.center());

@@ -68,10 +68,11 @@ std::vector<Result> mapSurfacePairs(const HermiteSource& source, const Monitor& 
   tbb::enumerable_thread_specific<std::unique_ptr<HermiteBlock>> scratch(
       [] { return std::make_unique<HermiteBlock>(); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size()), [&](const auto& range) {
-    monitor.throwIfStopped();
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      monitor.throwIfStopped();
       forEachSurfaceSquare(source, blocks.coords[i], blocks.signs[i], *scratch.local(),
                            [&](const SurfacePoint& a, const SurfacePoint& b) { visit(a, b, found[i]); });
+    }
   });
   std::vector<Result> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());

@@ -4,6 +4,7 @@
 
 #include "pdc/math/interval.h"
 #include "pdc/mesh/mesh.h"
+#include "pdc/monitor.h"
 
 namespace pdc {
 
@@ -28,7 +29,7 @@ struct MeshReport {
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
-/// does not exist.
-[[nodiscard]] MeshReport analyze(const Mesh& mesh);
+/// does not exist; Cancelled, which is noticed between passes over the mesh. No progress is reported.
+[[nodiscard]] MeshReport analyze(const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace pdc
