@@ -34,12 +34,20 @@ bool isPlain(char c) {
 
 }  // namespace
 
-std::string SweepRequest::parameter() const {
-  return isos.size() > 1 ? "iso" : voxelSizes.size() > 1 ? "voxel_size" : "sigma_n";
+SweepParameter SweepRequest::parameter() const {
+  if (isos.size() > 1) return SweepParameter::kIso;
+  return voxelSizes.size() > 1 ? SweepParameter::kVoxelSize : SweepParameter::kSigmaNormal;
 }
 
 const std::vector<double>& SweepRequest::values() const {
-  return isos.size() > 1 ? isos : voxelSizes.size() > 1 ? voxelSizes : sigmas;
+  switch (parameter()) {
+    case SweepParameter::kIso:
+      return isos;
+    case SweepParameter::kVoxelSize:
+      return voxelSizes;
+    default:
+      return sigmas;
+  }
 }
 
 void addSweepOptions(CLI::App& command, SweepRequest& request) {
