@@ -1,13 +1,12 @@
 #include "commands/info_facts.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "commands/input_kind.h"
-#include "pdc/extract/contour.h"
 #include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
+#include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
 namespace {
@@ -45,17 +44,11 @@ Json gridFacts(const std::filesystem::path& path) {
   return facts;
 }
 
-/// As FieldSource counts them: a hair over a whole number of voxels is that number.
-long long cellsAlong(double side, double voxelSize) {
-  constexpr double kHair = 1e-9;  // voxels
-  return std::max(1LL, std::llround(std::ceil(side / voxelSize - kHair)));
-}
-
 Json sceneFacts(const std::filesystem::path& path) {
   const Scene scene = readScene(path);
   Json cells = Json::array();
   for (int axis = 0; axis < 3; ++axis)
-    cells.push_back(cellsAlong(scene.box.hi[axis] - scene.box.lo[axis], scene.voxelSize));
+    cells.push_back(voxelsAlong(scene.box.hi[axis] - scene.box.lo[axis], scene.voxelSize));
   const double sigma = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
   Json facts{{"kind", "scene"}};
   if (!scene.name.empty()) facts["name"] = scene.name;

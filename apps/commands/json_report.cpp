@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The most memory this program has had in use; 0 if the system does not say. Not getrusage, whose figure starts at
-/// that of the program that started this one.
+/// The most memory this program has had in use; 0 if the system does not say. getrusage is of no use here: its figure
+/// starts at that of the program that started this one.
 std::size_t peakMemoryBytes() {
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
@@ -56,8 +56,8 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"normal_noise", run.contour.normalNoise},
           {"sigma_grid", request.sigmaGrid ? Json(*request.sigmaGrid) : Json()},
           {"weight_grid", request.weightGrid ? Json(*request.weightGrid) : Json()},
-          {"placement", request.placement},
-          {"hermite", run.hermite},
+          {"placement", placementName(request.placement)},
+          {"hermite", planeOriginName(run.planeOrigin)},
           {"value_noise_voxels", run.valueNoise},
           {"threads", threads},
           {"bytes_written", run.bytesWritten},

@@ -15,8 +15,8 @@ struct MeshRun {
   ContourOptions options;
   ContourReport contour;
   double iso = 0;
-  std::string hermite;    ///< See MeshInput.
-  double valueNoise = 0;  ///< See MeshInput.
+  PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
+  double valueNoise = 0;  ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   double secondsRead = 0, secondsContour = 0, secondsWrite = 0, secondsTotal = 0;
@@ -25,10 +25,12 @@ struct MeshRun {
 
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run);
 
-/// Throws Error unless a report can be written to `path`. Empty (no report) and "-" (standard output) always can.
+/// \throws Error unless a report can be written to `path`. An empty path (no report) and "-" (standard output) always
+/// serve.
 void checkJsonPath(const std::filesystem::path& path);
 
-/// Writes to a file, which appears only when it is complete, or to standard output for "-". Nothing for an empty path.
+/// Writes to a file, which appears only when it is complete, or to standard output for "-"; does nothing for an empty
+/// path.
 void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path);
 
 }  // namespace pdc

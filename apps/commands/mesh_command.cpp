@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "commands/json_report.h"
-#include "commands/mesh_input.h"
+#include "parallel/stopwatch.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
@@ -18,26 +17,12 @@
 namespace pdc {
 namespace {
 
-/// Seconds since it was made or last asked.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> passed = now - mLast;
-    mLast = now;
-    return passed.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point mLast = std::chrono::steady_clock::now();
-};
-
 void warn(MeshRun& run, const std::string& message) {
   run.warnings.push_back(message);
   std::fputs(fmt::format("pdc: warning: {}\n", message).c_str(), stderr);
 }
 
-void checkSurface(const MeshRequest& request, const MeshInput& input, const Mesh& mesh, MeshRun& run) {
+void checkSurface(const MeshRequest& request, const Input& input, const Mesh& mesh, MeshRun& run) {
   if (!mesh.empty()) return;
   const std::string message = input.whyEmpty() + "; the mesh is empty";
   if (request.requireSurface) throw Error(message);
@@ -45,7 +30,7 @@ void checkSurface(const MeshRequest& request, const MeshInput& input, const Mesh
 }
 
 /// Far from the origin the output's single precision is coarser than the vertices were placed.
-void checkPrecision(const MeshInput& input, const Mesh& mesh, MeshRun& run) {
+void checkPrecision(const Input& input, const Mesh& mesh, MeshRun& run) {
   constexpr double kTolerated = 1e-3;  // voxels
   float farthest = 0;
   for (const Vec3f& p : mesh.positions) {
@@ -60,18 +45,18 @@ void checkPrecision(const MeshInput& input, const Mesh& mesh, MeshRun& run) {
 }
 
 Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
-  Stopwatch stopwatch;
-  const MeshInput input = [&] {
+  detail::Stopwatch stopwatch;
+  const Input input = [&] {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
-    return openMeshInput(request);
+    return openInput(request.input, request.inputOptions());
   }();
   run.secondsRead = stopwatch.lap();
   if (input.refusedNoise > 0)
     warn(run,
          fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
   run.iso = input.iso;
-  run.hermite = input.hermite;
+  run.planeOrigin = input.planeOrigin;
   run.valueNoise = input.valueNoise;
   run.options = request.contourOptions(input.sigmaNormal);
 
@@ -93,7 +78,7 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
   fmt::print("{}: {} vertices, {} {}, {}; {} bytes\n", request.output.string(), run.vertices,
              run.options.triangles ? run.triangles : run.quads, run.options.triangles ? "triangles" : "quads", boundary,
              run.bytesWritten);
-  if (run.hermite == "distance")
+  if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (!run.options.sigmaNormal) fmt::print("noise of the normals {:.2g}\n", run.contour.normalNoise);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
@@ -108,13 +93,13 @@ void runMesh(const MeshRequest& request) {
   checkJsonPath(request.json);
 
   MeshRun run;
-  Stopwatch total;
+  detail::Stopwatch total;
   const Mesh mesh = makeMesh(request, run);
   run.vertices = mesh.positions.size();
   run.quads = mesh.quads.size();
   run.triangles = mesh.triangles.size();
 
-  Stopwatch stopwatch;
+  detail::Stopwatch stopwatch;
   {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "writing " + request.output.filename().string());

@@ -2,22 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "commands/input_kind.h"
 #include "io/mesh/mesh_format.h"
 #include "pdc/error.h"
+#include "pdc/sample/implicit/field_source.h"
+#include "terminal/choice_option.h"
 #include "terminal/numbers.h"
 
 namespace pdc {
 namespace {
 
-const std::map<std::string, Placement> kPlacements{
+const Choices<Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
-
-// FieldSource's own limit on voxels per axis.
-constexpr int kMaxResolution = 1 << 20;
+const Choices<HermiteMode> kHermiteModes{
+    {"auto", HermiteMode::kAuto}, {"gradient", HermiteMode::kGradient}, {"distance", HermiteMode::kDistance}};
+const Choices<bool> kNonFiniteModes{{"error", false}, {"outside", true}};
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   const auto finite = [](double v) { return std::isfinite(v); };
@@ -39,12 +40,9 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
                                         "Assumed noise of the unit normals (0.05); auto: from the data")
       ->type_name("S|inf|auto")
       ->group(group);
-  command
-      .add_option("--placement", request.placement,
-                  "Where vertices may lie (certified): free as far as no faces\n"
-                  "intersect, in their cell, or free without that promise")
-      ->type_name("WHERE")
-      ->check(CLI::IsMember(kPlacements))
+  addPlacement(command, request.placement,
+               "Where vertices may lie (certified): free as far as no faces\n"
+               "intersect, in their cell, or free without that promise")
       ->group(group);
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
@@ -58,25 +56,30 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto grids = "For .vdb inputs";
   command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
-  command.add_option("--nan", request.nan, "What NaN and infinite voxels are (error)")
+  addChoice(command, "--nan", request.acceptNonFinite, kNonFiniteModes, "What NaN and infinite voxels are (error)")
       ->type_name("MODE")
-      ->check(CLI::IsMember({"error", "outside"}))
       ->group(grids);
-  command
-      .add_option("--hermite", request.hermite,
-                  "Where planes come from (auto): gradients at crossings; or,\n"
-                  "beside creases, distances; auto: distances if the grid has them")
+  addChoice(command, "--hermite", request.hermite, kHermiteModes,
+            "Where planes come from (auto): gradients at crossings; or,\n"
+            "beside creases, distances; auto: distances if the grid has them")
       ->type_name("MODE")
-      ->check(CLI::IsMember({"auto", "gradient", "distance"}))
       ->group(grids);
   addNoiseGrids(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
       ->group(scenes);
-  addInteger(command, "--resolution", request.resolution, 1, kMaxResolution, "Cells along the longest side of the box")
+  addInteger(command, "--resolution", request.resolution, 1, kMaxVoxelsPerAxis,
+             "Cells along the longest side of the box")
       ->type_name("N")
       ->group(scenes);
+}
+
+/// The names alone tell these: what the file holds is known once it is read.
+void checkNoiseGrid(const MeshRequest& request, const char* option, const std::optional<std::string>& name) {
+  if (!name) return;
+  if (name->empty()) throw Error(fmt::format("{}: the name is empty", option));
+  if (name == request.grid) throw Error(fmt::format("{}: '{}' is the grid itself", option, *name));
 }
 
 void refuseOther(bool given, const char* name, const char* takers) {
@@ -91,14 +94,35 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 }  // namespace
 
+InputOptions MeshRequest::inputOptions() const {
+  return {.iso = iso,
+          .open = open,
+          .grid = grid,
+          .acceptNonFinite = acceptNonFinite.value_or(false),
+          .hermite = hermite.value_or(HermiteMode::kAuto),
+          .sigmaGrid = sigmaGrid,
+          .weightGrid = weightGrid,
+          .voxelSize = voxelSize,
+          .resolution = resolution};
+}
+
 ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
   return {.sigmaNormal = sigmaFromData ? std::nullopt : std::optional(sigmaNormal.value_or(assumedSigma)),
-          .placement = kPlacements.at(placement),
+          .placement = placement,
           .triangles = triangles,
           .normals = normals,
           .confidence = confidence,
           .ranks = rank,
           .threads = threads.value_or(0)};
+}
+
+std::string placementName(Placement placement) {
+  return std::find_if(kPlacements.begin(), kPlacements.end(), [&](const auto& p) { return p.second == placement; })
+      ->first;
+}
+
+CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help) {
+  return addChoice(command, "--placement", target, kPlacements, help)->type_name("WHERE");
 }
 
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
@@ -131,10 +155,12 @@ void checkMeshRequest(const MeshRequest& request) {
     case InputKind::kGrid:
       refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
       refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      checkNoiseGrid(request, "--sigma-grid", request.sigmaGrid);
+      checkNoiseGrid(request, "--weight-grid", request.weightGrid);
       break;
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
-      refuseOther(request.nan.has_value(), "--nan", ".vdb inputs");
+      refuseOther(request.acceptNonFinite.has_value(), "--nan", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");

@@ -6,32 +6,44 @@
 #include <string>
 
 #include "pdc/extract/contour.h"
+#include "pdc/io/open_input.h"
 
 namespace pdc {
 
-/// What the command line of `pdc mesh` says. Absent: not said.
+/// What the command line of `pdc mesh` says. What is empty was not said.
 struct MeshRequest {
   std::filesystem::path input, output, json;
-  std::optional<std::string> grid, nan, hermite, sigmaGrid, weightGrid;
+  std::optional<std::string> grid, sigmaGrid, weightGrid;
+  std::optional<bool> acceptNonFinite;
+  std::optional<HermiteMode> hermite;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
-  std::string placement = "certified";
+  Placement placement = Placement::kCertified;
   bool triangles = false, open = false, normals = false, ascii = false;
-  bool sigmaFromData = false;  ///< --sigma-n auto.
+  bool sigmaFromData = false;  ///< True for --sigma-n auto.
   bool confidence = false, rank = false, requireSurface = false, quiet = false;
 
-  /// All of ContourOptions; `assumedSigma` holds where the command line does not say sigma.
+  /// How to read the input.
+  [[nodiscard]] InputOptions inputOptions() const;
+  /// How to contour it; `assumedSigma` holds where the command line does not say sigma.
   [[nodiscard]] ContourOptions contourOptions(double assumedSigma) const;
 };
 
+/// "certified", "cell" or "free", as the command line and reports have it.
+[[nodiscard]] std::string placementName(Placement placement);
+
 /// Declares the options of `pdc mesh`; they are stored in `request` when the line is parsed.
 void addMeshOptions(CLI::App& command, MeshRequest& request);
+
+/// Declares --placement.
+CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help);
 
 /// Declares --sigma-grid and --weight-grid.
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// \throws CLI::ValidationError for options that do not go with the kind of input, or a report that would replace the
-/// input or the output; Error for an input that is neither grid nor scene.
+/// input or the output; Error for an input that is neither grid nor scene, and for σ and weight grids without a name or
+/// with that of the grid.
 void checkMeshRequest(const MeshRequest& request);
 
 }  // namespace pdc

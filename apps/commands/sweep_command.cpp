@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "commands/input_kind.h"
-#include "commands/mesh_input.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/scene/scene_reader.h"
@@ -23,7 +21,7 @@ namespace {
 
 constexpr int kPictureSide = 480;  // pixels
 
-/// Calls read() and says so.
+/// Calls read() under a sign that says so.
 template <typename Read>
 auto reading(const std::filesystem::path& path, bool quiet, const Read& read) {
   const ExitOnInterrupt scope;
@@ -31,27 +29,23 @@ auto reading(const std::filesystem::path& path, bool quiet, const Read& read) {
   return read();
 }
 
-SweepTruth truthOf(const MeshInput& input) {
+SweepTruth truthOf(const Input& input) {
   if (input.field == nullptr) return {};
   return {.field = input.field,
           .reference = nullptr,
           .creases = creasePoints(input.field, *input.source, {.stop = &interruptFlag()})};
 }
 
-/// What --reference names: a scene on its own lattice, or a mesh.
+/// Reads what --reference names: a scene, whose creases are found on its own lattice, or a mesh.
 SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
-  if (inputKind(path) == InputKind::kScene) {
-    MeshRequest scene;
-    scene.input = path;
-    return truthOf(reading(path, quiet, [&] { return openMeshInput(scene); }));
-  }
+  if (inputKind(path) == InputKind::kScene) return truthOf(reading(path, quiet, [&] { return openInput(path); }));
   auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMesh(path); }));
   if (mesh->empty()) throw Error(fmt::format("{}: the reference has no faces", path.string()));
   return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
 }
 
-SweepInput openInput(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
-  MeshInput input = reading(mesh.input, mesh.quiet, [&] { return openMeshInput(mesh); });
+SweepInput openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
+  Input input = reading(mesh.input, mesh.quiet, [&] { return openInput(mesh.input, mesh.inputOptions()); });
   SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
   return {std::move(input.source), std::move(truth)};
 }
@@ -59,10 +53,10 @@ SweepInput openInput(const SweepRequest& request, const MeshRequest& mesh, const
 Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
   const SweepTruth reference =
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
-  const std::string parameter = request.parameter();
-  SweepInput first = openInput(request, request.mesh, reference);
+  const SweepParameter parameter = request.parameter();
+  SweepInput first = openStep(request, request.mesh, reference);
   SweepOptions options{.contour = request.mesh.contourOptions(kDefaultSigmaNormal), .truth = {}};
-  if (parameter == "sigma_n") {
+  if (parameter == SweepParameter::kSigmaNormal) {
     options.truth = std::move(first.truth);
     return sweepSigma(*first.source, request.values(), options, monitor);
   }
@@ -70,13 +64,13 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       parameter, request.values(),
       [&](double value) {
         MeshRequest mesh = request.mesh;
-        (parameter == "iso" ? mesh.iso : mesh.voxelSize) = value;
-        return openInput(request, mesh, reference);
+        (parameter == SweepParameter::kIso ? mesh.iso : mesh.voxelSize) = value;
+        return openStep(request, mesh, reference);
       },
       options, monitor);
 }
 
-/// All from where the largest of the meshes fills the picture. A step without surface has a blank one.
+/// Draws all from one place, where the largest of the meshes fills the picture. A step without surface is blank.
 std::vector<Image> drawAll(const SweepRequest& request, const std::vector<Mesh>& meshes, const Monitor& monitor) {
   RenderOptions options{.width = kPictureSide, .height = kPictureSide, .threads = request.mesh.threads.value_or(0)};
   options.camera = fitCamera(meshes, request.towardsViewer, kPictureSide, kPictureSide);
@@ -96,15 +90,16 @@ void writeAll(const SweepRequest& request, const Sweep& sweep, const SweepDescri
   const ExitOnInterrupt scope;
   const BusySign sign(!request.mesh.quiet, "writing " + request.folder.string());
   for (std::size_t i = 0; request.meshes && i < sweep.meshes.size(); ++i)
-    static_cast<void>(writeMesh(sweep.meshes[i],
-                                request.folder / fmt::format("{}_{:.6g}.ply", sweep.parameter, sweep.steps[i].value)));
+    static_cast<void>(
+        writeMesh(sweep.meshes[i],
+                  request.folder / fmt::format("{}_{:.6g}.ply", namesOf(sweep.parameter).key, sweep.steps[i].value)));
   writeSweep(sweep, description, request.folder);
 }
 
 void printSummary(const SweepRequest& request, const Sweep& sweep) {
   const auto shown = [](const std::optional<double>& v) { return v ? fmt::format("{:.4f}", *v) : std::string("-"); };
-  fmt::print("{:>10} {:>12} {:>12} {:>10} {:>12} {:>10} {:>8}\n", sweep.parameter, "vertex RMS", "crease RMS",
-             "roughness", "min angle 1%", "self-int.", "seconds");
+  fmt::print("{:>10} {:>12} {:>12} {:>10} {:>12} {:>10} {:>8}\n", namesOf(sweep.parameter).key, "vertex RMS",
+             "crease RMS", "roughness", "min angle 1%", "self-int.", "seconds");
   for (const SweepStep& step : sweep.steps)
     fmt::print("{:>10.6g} {:>12} {:>12} {:>10.4f} {:>12.2f} {:>10} {:>8.3f}\n", step.value, shown(step.vertexRms),
                shown(step.creaseRms), step.roughness, step.minimumAngle[0], step.selfIntersections, step.seconds);
@@ -118,10 +113,10 @@ void runSweep(SweepRequest request, const std::string& command) {
   makeSweepFolder(request.folder);
 
   Sweep sweep;
-  SweepDescription description{
-      .title = fmt::format("{}: sweep over {}", request.mesh.input.filename().string(), request.parameter()),
-      .command = command,
-      .pictures = {}};
+  SweepDescription description{.title = fmt::format("{}: sweep over {}", request.mesh.input.filename().string(),
+                                                    namesOf(request.parameter()).key),
+                               .command = command,
+                               .pictures = {}};
   {
     ProgressBar bar(!request.mesh.quiet);
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };

@@ -34,12 +34,20 @@ bool isPlain(char c) {
 
 }  // namespace
 
-std::string SweepRequest::parameter() const {
-  return isos.size() > 1 ? "iso" : voxelSizes.size() > 1 ? "voxel_size" : "sigma_n";
+SweepParameter SweepRequest::parameter() const {
+  if (isos.size() > 1) return SweepParameter::kIso;
+  return voxelSizes.size() > 1 ? SweepParameter::kVoxelSize : SweepParameter::kSigmaNormal;
 }
 
 const std::vector<double>& SweepRequest::values() const {
-  return isos.size() > 1 ? isos : voxelSizes.size() > 1 ? voxelSizes : sigmas;
+  switch (parameter()) {
+    case SweepParameter::kIso:
+      return isos;
+    case SweepParameter::kVoxelSize:
+      return voxelSizes;
+    default:
+      return sigmas;
+  }
 }
 
 void addSweepOptions(CLI::App& command, SweepRequest& request) {
@@ -56,9 +64,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addReals(
       command, "--voxel-size", request.voxelSizes, [](double v) { return v > 0 && std::isfinite(v); },
       "finite numbers > 0", "Of a scene: edges of a cell, in world units");
-  command.add_option("--placement", mesh.placement, "Where vertices may lie (certified), as for pdc mesh")
-      ->type_name("WHERE")
-      ->check(CLI::IsMember({"certified", "cell", "free"}));
+  addPlacement(command, mesh.placement, "Where vertices may lie (certified), as for pdc mesh");
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
   addNoiseGrids(command, mesh, "OPTIONS");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/mesh_request.h"
+#include "pdc/study/sweep.h"
 
 namespace pdc {
 
@@ -17,14 +18,14 @@ struct SweepRequest {
   Vec3d towardsViewer{1, -1, 1};
   bool meshes = false;
 
-  /// "sigma_n", "iso" or "voxel_size": the one with several values, or σn.
-  [[nodiscard]] std::string parameter() const;
+  /// The one with several values, or σn.
+  [[nodiscard]] SweepParameter parameter() const;
   [[nodiscard]] const std::vector<double>& values() const;
 };
 
 void addSweepOptions(CLI::App& command, SweepRequest& request);
 
-/// Takes over the values that are not swept and fills in what is not said. \throws as checkMeshRequest, and
+/// Takes over the values that are not swept and fills in what is not said. \throws what checkMeshRequest does, and
 /// CLI::ValidationError if two options have several values.
 void settleSweepRequest(SweepRequest& request);
 

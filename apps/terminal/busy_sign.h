@@ -5,9 +5,9 @@
 
 namespace pdc {
 
-/// A line on standard error, for a person, while something runs that cannot say how far it is, such as reading a file:
-/// what is being done and for how long. Drawn only on a terminal, only after a second, and wiped when it goes out of
-/// scope.
+/// A line on standard error, for a person, while something runs that cannot say how far it is, such as reading a file.
+/// It says what is being done and for how long. It is drawn only on a terminal and only after a second, and wiped when
+/// the object goes out of scope.
 class BusySign {
  public:
   /// `wanted` false, or standard error not being a terminal, makes a sign that never draws.

@@ -7,14 +7,14 @@ namespace pdc {
 
 /// Exit code of work that was interrupted, by SIGINT or SIGTERM alike.
 inline constexpr int kInterruptedExitCode = 130;
-/// What is said then, on standard error.
+/// What such a program says last, on standard error.
 inline constexpr std::string_view kInterruptedMessage = "pdc: interrupted\n";
 
 /// Takes SIGINT and SIGTERM. The first one sets interruptFlag(); a second one ends the process at once, with
 /// kInterruptedExitCode and without the temporary files of unfinished output.
 void installInterruptHandler();
 
-/// For Monitor::stop.
+/// True once a signal has come; serves as Monitor::stop.
 [[nodiscard]] const std::atomic<bool>& interruptFlag();
 
 /// While one lives the first signal ends the process at once too: for work that cannot be asked to stop, such as

@@ -13,11 +13,11 @@ namespace pdc {
 CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<double>& target,
                      std::function<bool(double)> accepts, const std::string& limit, const std::string& help);
 
-/// As addReal, for a whole number in [lo, hi].
+/// The same for a whole number in [lo, hi].
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
                         const std::string& help);
 
-/// The numbers of a list like "0,0.1,inf", read as strictly; empty if any part is none.
+/// The numbers of a list like "0,0.1,inf", read as strictly as by addReal(); empty if any part is no number.
 [[nodiscard]] std::vector<double> parseReals(const std::string& text, char separator);
 
 /// The option --threads, the same for all commands.

@@ -7,8 +7,8 @@
 namespace pdc {
 
 /// A bar on standard error, for a person: the share done, how fast it grows and how long the rest will take at that
-/// rate. Drawn only on a terminal, only once the work has taken more than a second, and wiped when the bar goes out of
-/// scope.
+/// rate. It is drawn only on a terminal and only once the work has taken more than a second, and wiped when the object
+/// goes out of scope.
 class ProgressBar {
  public:
   /// `wanted` false, or standard error not being a terminal, makes a bar that never draws.
@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// For Monitor::progress: callable from any thread; draws at most ten times a second.
+  /// Serves as Monitor::progress: any thread may call it; draws at most ten times a second.
   void update(const char* stage, double share);
 
  private:

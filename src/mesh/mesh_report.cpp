@@ -218,7 +218,7 @@ Measures measure(const Mesh& mesh, const Vec3d& center) {
 
 }  // namespace
 
-MeshReport analyze(const Mesh& mesh) {
+MeshReport analyze(const Mesh& mesh, const Monitor& monitor) {
   detail::checkSizes(mesh, "analyze", detail::FaceKinds::kAll);
   detail::checkIndices(mesh);
   MeshReport report;
@@ -228,9 +228,12 @@ MeshReport analyze(const Mesh& mesh) {
   report.polygons = mesh.polygons.size();
   report.nonFiniteVertices = sumOver<std::size_t>(
       mesh.positions.size(), [&](std::size_t i, std::size_t& count) { count += !isFinite(mesh.positions[i]); });
+  monitor.throwIfStopped();
   countFaces(mesh, report);
 
+  monitor.throwIfStopped();
   const Connectivity connectivity(mesh);
+  monitor.throwIfStopped();
   const FanCounts fans = countFans(connectivity);
   report.edges = fans.edges;
   report.boundaryEdges = fans.boundary;
@@ -240,6 +243,7 @@ MeshReport analyze(const Mesh& mesh) {
   report.unusedVertices = report.vertices - fans.usedVertices;
   report.eulerNumber = static_cast<long long>(fans.usedVertices) - static_cast<long long>(fans.edges) +
                        static_cast<long long>(faceCount(mesh));
+  monitor.throwIfStopped();
   report.components = countComponents(mesh, connectivity);
   report.bounds = boundsOf(mesh, connectivity);
   const Measures measures = measure(mesh, report.bounds.center());

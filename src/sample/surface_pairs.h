@@ -69,12 +69,13 @@ std::vector<Result> mapSurfacePairs(const HermiteSource& source, const Monitor& 
   tbb::enumerable_thread_specific<std::unique_ptr<HermiteBlock>> scratch(
       [] { return std::make_unique<HermiteBlock>(); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size()), [&](const auto& range) {
-    monitor.throwIfStopped();
     isolated([&] {
       HermiteBlock& hermite = *scratch.local();
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        monitor.throwIfStopped();
         forEachSurfaceSquare(source, blocks.coords[i], blocks.signs[i], hermite,
                              [&](const SurfacePoint& a, const SurfacePoint& b) { visit(a, b, found[i]); });
+      }
     });
   });
   std::vector<Result> all;

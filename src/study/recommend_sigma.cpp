@@ -11,7 +11,7 @@ namespace {
 /// Curves whose ends differ by less than this share do not tell their values apart.
 constexpr double kFlat = 0.05;
 
-/// Where a σn lies on a scale on which steps are alike: 0.01 to 1 by their logarithm.
+/// Where a σn lies on a logarithmic scale from 0.01 to 1: factors tell values of σn apart, not differences.
 double place(double sigma) { return std::log(std::clamp(sigma, 0.01, 1.0)); }
 
 }  // namespace
@@ -24,7 +24,7 @@ std::optional<double> trueError(const SweepStep& step) {
 void recommendSigma(Sweep& sweep) {
   const auto& steps = sweep.steps;
   const bool known = trueError(steps.front()).has_value();
-  // Without a truth the step is the one nearest to the noise found in the normals.
+  // Without a truth the noise found in the normals is all there is to go by.
   const auto cost = [&](const SweepStep& s) {
     return known ? *trueError(s) : std::abs(place(s.value) - place(sweep.normalNoise));
   };
@@ -45,8 +45,8 @@ void recommendSigma(Sweep& sweep) {
   } else {
     sweep.reason = fmt::format(
         "sigma_n = {} is nearest to the noise found in the input: from one crossing to the next a component of the "
-        "unit "
-        "normals differs with a standard deviation of {:.3f}. The true surface is not known, so this is an estimate.",
+        "unit normals differs with a standard deviation of {:.3f}. The true surface is not known, so this is an "
+        "estimate.",
         best->value, sweep.normalNoise);
   }
 }

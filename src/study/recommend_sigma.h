@@ -10,7 +10,7 @@ namespace pdc::detail {
 /// Empty without a truth.
 [[nodiscard]] std::optional<double> trueError(const SweepStep& step);
 
-/// Sets `recommended` and `reason` of a sweep over σn.
+/// Sets `recommended` and `reason` of a sweep over σn that has a step; see sweepSigma().
 void recommendSigma(Sweep& sweep);
 
 }  // namespace pdc::detail

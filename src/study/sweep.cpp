@@ -5,11 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/mesh/distance.h"
 #include "pdc/mesh/mesh_report.h"
@@ -19,6 +19,7 @@
 #include "pdc/sample/normal_noise.h"
 #include "pdc/sample/sampled_source.h"
 #include "study/recommend_sigma.h"
+#include "study/whole_progress.h"
 
 namespace pdc {
 namespace {
@@ -26,21 +27,11 @@ namespace {
 /// Parts whose faces turn by less than this about a vertex are flat: half of what counts as a crease elsewhere.
 constexpr double kFlatDegrees = 15;
 
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - mStart).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
-};
-
-/// To first order.
-Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field) {
+/// |f| / |grad f| at each point, which is its distance from f = 0 to first order.
+Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field, const Monitor& monitor) {
   Buffer<double> result(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
+    monitor.throwIfStopped();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Vec3d p = vecCast<double>(points[i]);
       double value = 0;
@@ -52,7 +43,7 @@ Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field)
   return result;
 }
 
-/// Root mean square and maximum of the finite ones, divided by the voxel size; empty if there are none.
+/// Sets root mean square and maximum of the finite lengths, in voxels; leaves them empty if there are none.
 void summarize(const Buffer<double>& lengths, double voxelSize, std::optional<double>& rms,
                std::optional<double>& max) {
   double squares = 0, most = 0, count = 0;
@@ -81,31 +72,23 @@ std::array<double, 3> anglePercentiles(const Mesh& mesh) {
   return result;
 }
 
-/// Fills all of a step but what contour() said.
-void measure(const Mesh& mesh, const std::vector<std::uint8_t>& flat, const SweepTruth& truth, SweepStep& step) {
+/// Fills what a step says beside value, voxel size, time and contour().
+void measure(const Mesh& mesh, const std::vector<std::uint8_t>& flat, const SweepTruth& truth, SweepStep& step,
+             const Monitor& monitor) {
   step.vertices = mesh.positions.size();
   step.faces = mesh.quads.size() + mesh.triangles.size();
   if (mesh.empty()) return;
   if (truth.field != nullptr) {
-    summarize(distancesToField(mesh.positions, *truth.field), step.voxelSize, step.vertexRms, step.vertexMax);
+    summarize(distancesToField(mesh.positions, *truth.field, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
   } else if (truth.reference != nullptr) {
-    summarize(distances(mesh.positions, *truth.reference), step.voxelSize, step.vertexRms, step.vertexMax);
+    summarize(distances(mesh.positions, *truth.reference, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
   }
-  if (!truth.creases.empty()) summarize(distances(truth.creases, mesh), step.voxelSize, step.creaseRms, step.creaseMax);
+  if (!truth.creases.empty())
+    summarize(distances(truth.creases, mesh, monitor), step.voxelSize, step.creaseRms, step.creaseMax);
   step.roughness = roughness(mesh, flat) / step.voxelSize;
   step.minimumAngle = anglePercentiles(mesh);
-  step.selfIntersections = selfIntersections(mesh).pairs.size();
-  step.eulerNumber = analyze(mesh).eulerNumber;
-}
-
-/// Tells a monitor of the whole what a part reports of itself.
-Monitor partOf(const Monitor& whole, std::size_t part, std::size_t parts) {
-  if (!whole.progress) return whole;
-  return {.progress =
-              [&whole, part, parts](const char* stage, double share) {
-                whole.progress(stage, (static_cast<double>(part) + share) / static_cast<double>(parts));
-              },
-          .stop = whole.stop};
+  step.selfIntersections = selfIntersections(mesh, {}, monitor).pairs.size();
+  step.eulerNumber = analyze(mesh, monitor).eulerNumber;
 }
 
 void checkValues(const std::vector<double>& values) {
@@ -114,53 +97,69 @@ void checkValues(const std::vector<double>& values) {
 
 Sweep runSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
                const Monitor& monitor) {
-  Sweep sweep{.parameter = "sigma_n"};
-  const Stopwatch sampling;
-  const SampledSource sampled(source, monitor);
-  sweep.secondsSample = sampling.seconds();
+  // The parts are sampling, a contour and a measurement for each value, the flat vertices and the noise.
+  detail::WholeProgress progress(monitor, 2 * sigmas.size() + 3);
+  Sweep sweep{.parameter = SweepParameter::kSigmaNormal};
+  detail::Stopwatch sampling;
+  const SampledSource sampled(source, progress.beginPart());
+  sweep.secondsSample = sampling.lap();
   for (const double sigma : sigmas) {
     SweepStep step{.value = sigma, .voxelSize = source.map().voxelSize()};
     ContourOptions contourOptions = options.contour;
     contourOptions.sigmaNormal = sigma;
-    const Stopwatch contouring;
-    sweep.meshes.push_back(
-        contour(sampled, contourOptions, &step.contour, partOf(monitor, sweep.steps.size(), 2 * sigmas.size())));
-    step.seconds = contouring.seconds();
+    detail::Stopwatch contouring;
+    sweep.meshes.push_back(contour(sampled, contourOptions, &step.contour, progress.beginPart()));
+    step.seconds = contouring.lap();
     sweep.steps.push_back(step);
   }
-  // The same vertices for all: those that are flat where no normal has a say.
+  // Roughness is compared over the same vertices: those that are flat where no normal has a say.
   const std::vector<std::uint8_t> flat = flatVertices(
-      contour(sampled, {.sigmaNormal = std::numeric_limits<double>::infinity(), .placement = Placement::kCell}),
+      contour(sampled, {.sigmaNormal = std::numeric_limits<double>::infinity(), .placement = Placement::kCell}, nullptr,
+              progress.beginPart()),
       kFlatDegrees);
-  for (std::size_t i = 0; i < sigmas.size(); ++i) {
-    monitor.throwIfStopped();
-    measure(sweep.meshes[i], flat, options.truth, sweep.steps[i]);
-    if (monitor.progress) monitor.progress("measuring", 0.5 * (1 + static_cast<double>(i + 1) / double(sigmas.size())));
-  }
-  sweep.normalNoise = normalNoise(sampled, monitor);
+  for (std::size_t i = 0; i < sigmas.size(); ++i)
+    measure(sweep.meshes[i], flat, options.truth, sweep.steps[i], progress.beginPart());
+  sweep.normalNoise = normalNoise(sampled, progress.beginPart());
   detail::recommendSigma(sweep);
+  progress.finish();
   return sweep;
 }
 
-Sweep runInputs(const std::string& parameter, const std::vector<double>& values,
+Sweep runInputs(SweepParameter parameter, const std::vector<double>& values,
                 const std::function<SweepInput(double)>& open, const SweepOptions& options, const Monitor& monitor) {
+  // The parts of each value are opening, contouring and measuring.
+  detail::WholeProgress progress(monitor, 3 * values.size());
   Sweep sweep{.parameter = parameter};
   for (const double value : values) {
+    static_cast<void>(progress.beginPart());
     const SweepInput input = open(value);
     SweepStep step{.value = value, .voxelSize = input.source->map().voxelSize()};
-    const Stopwatch contouring;
-    Mesh mesh =
-        contour(*input.source, options.contour, &step.contour, partOf(monitor, sweep.steps.size(), values.size()));
-    step.seconds = contouring.seconds();
-    measure(mesh, flatVertices(mesh, kFlatDegrees), input.truth, step);
+    detail::Stopwatch contouring;
+    Mesh mesh = contour(*input.source, options.contour, &step.contour, progress.beginPart());
+    step.seconds = contouring.lap();
+    measure(mesh, flatVertices(mesh, kFlatDegrees), input.truth, step, progress.beginPart());
     sweep.steps.push_back(step);
     sweep.meshes.push_back(std::move(mesh));
   }
-  sweep.reason = "Nothing is recommended: which " + parameter + " is right depends on what the mesh is for.";
+  sweep.reason =
+      fmt::format("Nothing is recommended: which {} is right depends on what the mesh is for.", namesOf(parameter).key);
+  progress.finish();
   return sweep;
 }
 
 }  // namespace
+
+SweepParameterNames namesOf(SweepParameter parameter) {
+  switch (parameter) {
+    case SweepParameter::kSigmaNormal:
+      return {"sigma_n", "σn"};
+    case SweepParameter::kIso:
+      return {"iso", "isovalue"};
+    case SweepParameter::kVoxelSize:
+      return {"voxel_size", "voxel size"};
+  }
+  throw std::invalid_argument("not a parameter of a sweep");
+}
 
 Sweep sweepSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
                  const Monitor& monitor) {
@@ -170,9 +169,11 @@ Sweep sweepSigma(const HermiteSource& source, const std::vector<double>& sigmas,
   return detail::withThreads(options.contour.threads, [&] { return runSigma(source, sigmas, options, monitor); });
 }
 
-Sweep sweepInputs(const std::string& parameter, const std::vector<double>& values,
+Sweep sweepInputs(SweepParameter parameter, const std::vector<double>& values,
                   const std::function<SweepInput(double)>& open, const SweepOptions& options, const Monitor& monitor) {
   checkValues(values);
+  if (parameter == SweepParameter::kSigmaNormal)
+    throw std::invalid_argument("sweepInputs: σn is swept by sweepSigma()");
   return detail::withThreads(options.contour.threads,
                              [&] { return runInputs(parameter, values, open, options, monitor); });
 }

@@ -18,7 +18,7 @@ bool known(const Sweep& sweep, const std::string& key) {
                      [&](const SweepStep& s) { return column.get(s).has_value(); });
 }
 
-/// 1, 2 or 5 times a power of ten, so that about four of them make `range`.
+/// The distance of ticks: 1, 2 or 5 times a power of ten, so that about four of them make `range`.
 double tickStep(double range) {
   const double raw = range / 4, power = std::pow(10, std::floor(std::log10(raw)));
   for (const double digit : {1.0, 2.0, 5.0})
@@ -53,7 +53,7 @@ std::string axesSvg(const Sweep& sweep, const SweepChart& chart, const Axes& axe
     svg += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", axes.x(i), kHeight - kBottom + 18,
                        sweepNumber(sweep.steps[i].value));
   svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", (kWidth + kLeft - kRight) / 2,
-                     kHeight - 8, sweepParameterLabel(sweep.parameter));
+                     kHeight - 8, namesOf(sweep.parameter).label);
   svg += fmt::format(R"_(<text transform="translate(13 {}) rotate(-90)" text-anchor="middle">{}</text>)_",
                      (kHeight - kBottom + kTop) / 2, chart.unit);
   svg += fmt::format(R"(<line class="axis" x1="{0}" x2="{1}" y1="{2}" y2="{2}"/>)", kLeft, kWidth - kRight,

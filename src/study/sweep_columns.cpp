@@ -53,9 +53,4 @@ const SweepColumn& sweepColumn(const std::string& key) {
 
 std::string sweepNumber(double value) { return fmt::format("{:.6g}", value); }
 
-std::string sweepParameterLabel(const std::string& parameter) {
-  if (parameter == "sigma_n") return "σn";
-  return parameter == "iso" ? "isovalue" : "voxel size";
-}
-
 }  // namespace pdc::detail

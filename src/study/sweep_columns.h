@@ -10,18 +10,17 @@ namespace pdc::detail {
 
 /// One figure of each step, under the names that files and readers know it by.
 struct SweepColumn {
-  const char* key;    ///< In .csv and .json.
-  const char* label;  ///< On the page.
+  const char* key;    ///< Its name in .csv and .json.
+  const char* label;  ///< Its name on the page.
   std::optional<double> (*get)(const SweepStep&);
 };
 
-/// In the order of the table; the swept value itself is not among them.
+/// All columns, in the order of the table; the swept value itself is not among them.
 [[nodiscard]] std::span<const SweepColumn> sweepColumns();
+/// \throws std::invalid_argument for an unknown key.
 [[nodiscard]] const SweepColumn& sweepColumn(const std::string& key);
 
-/// Six significant digits at most; "inf" for infinity.
+/// A number for readers: six significant digits at most, "inf" for infinity.
 [[nodiscard]] std::string sweepNumber(double value);
-/// How the page calls what is swept: "σn", "isovalue", "voxel size".
-[[nodiscard]] std::string sweepParameterLabel(const std::string& parameter);
 
 }  // namespace pdc::detail

@@ -73,7 +73,7 @@ choose(Number(slider.value));
 )";
 
 std::string pictures(const Sweep& sweep, const SweepDescription& description) {
-  const std::string label = detail::sweepParameterLabel(sweep.parameter);
+  const std::string label = namesOf(sweep.parameter).label;
   std::string values, sheet;
   for (std::size_t i = 0; i < sweep.steps.size(); ++i) {
     const std::string value = detail::sweepNumber(sweep.steps[i].value);
@@ -107,7 +107,7 @@ std::string charts(const Sweep& sweep) {
 
 std::string table(const Sweep& sweep) {
   std::string html = fmt::format("<h2>Figures</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>{}</th>",
-                                 detail::sweepParameterLabel(sweep.parameter));
+                                 namesOf(sweep.parameter).label);
   for (const detail::SweepColumn& column : detail::sweepColumns()) html += fmt::format("<th>{}</th>", column.label);
   html += "</tr></thead>\n<tbody>\n";
   for (const SweepStep& step : sweep.steps) {

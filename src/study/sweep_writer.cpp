@@ -24,20 +24,21 @@ void writeText(const std::string& text, const fs::path& path) {
   file.commit();
 }
 
-/// A number that reads back to the same; "inf" in quotes, as JSON has none.
+/// A number that reads back to the same; JSON has no infinity, so that becomes the string "inf".
 std::string jsonNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "\"inf\""; }
 
 }  // namespace
 
 std::string sweepCsv(const Sweep& sweep) {
-  std::string csv = sweep.parameter;
+  const std::string swept = namesOf(sweep.parameter).key;
+  std::string csv = swept;
   for (const detail::SweepColumn& column : detail::sweepColumns())
-    if (column.key != sweep.parameter) csv += fmt::format(",{}", column.key);
+    if (column.key != swept) csv += fmt::format(",{}", column.key);
   csv += "\n";
   for (const SweepStep& step : sweep.steps) {
     csv += fmt::format("{}", step.value);
     for (const detail::SweepColumn& column : detail::sweepColumns()) {
-      if (column.key == sweep.parameter) continue;
+      if (column.key == swept) continue;
       const auto value = column.get(step);
       csv += value ? fmt::format(",{}", *value) : ",";
     }
@@ -47,17 +48,18 @@ std::string sweepCsv(const Sweep& sweep) {
 }
 
 std::string sweepJson(const Sweep& sweep, const SweepDescription& description) {
+  const std::string swept = namesOf(sweep.parameter).key;
   std::string json = fmt::format(
       "{{\n  \"title\": {},\n  \"command\": {},\n  \"parameter\": \"{}\",\n  \"length_unit\": \"voxel\",\n"
       "  \"seconds_sample\": {},\n  \"normal_noise\": {},\n  \"recommended\": {},\n  \"reason\": {},\n  \"steps\": [",
-      detail::jsonText(description.title), detail::jsonText(description.command), sweep.parameter,
+      detail::jsonText(description.title), detail::jsonText(description.command), swept,
       jsonNumber(sweep.secondsSample), jsonNumber(sweep.normalNoise),
       sweep.recommended ? jsonNumber(sweep.steps[*sweep.recommended].value) : "null", detail::jsonText(sweep.reason));
   for (std::size_t i = 0; i < sweep.steps.size(); ++i) {
     const SweepStep& step = sweep.steps[i];
-    json += fmt::format("{}\n    {{\"{}\": {}", i > 0 ? "," : "", sweep.parameter, jsonNumber(step.value));
+    json += fmt::format("{}\n    {{\"{}\": {}", i > 0 ? "," : "", swept, jsonNumber(step.value));
     for (const detail::SweepColumn& column : detail::sweepColumns()) {
-      if (column.key == sweep.parameter) continue;
+      if (column.key == swept) continue;
       const auto value = column.get(step);
       json += fmt::format(", \"{}\": {}", column.key, value ? jsonNumber(*value) : "null");
     }

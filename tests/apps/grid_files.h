@@ -7,13 +7,13 @@ namespace pdc::test {
 /// A level set of a sphere of radius 1 about the origin, voxel size 0.1.
 struct SphereFile {
   int nanVoxels = 0;        ///< That many voxels of the surface, from the first in memory order, become NaN.
-  int infiniteVoxels = 0;   ///< And that many more infinite.
+  int infiniteVoxels = 0;   ///< That many more become infinite.
   bool vectorGrid = false;  ///< Holds a vec3s grid instead.
   bool twoGrids = false;    ///< Holds the same grid a second time under the name "other"; the first is "sphere".
   /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "moved", of
   /// another transform; "faulty", -1 there.
   bool noiseGrids = false;
-  double offset = 0;  ///< Of the centre along x, through the grid's transform.
+  double offset = 0;  ///< Moves the centre along x, through the grid's transform.
 };
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content = {});

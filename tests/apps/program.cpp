@@ -42,6 +42,17 @@ pid_t start(const Arguments& arguments, const std::string& out, const std::strin
   return pid;
 }
 
+/// Waits until the process catches SIGINT; before that the signal would end it like any other program.
+void waitUntilInterruptible(pid_t pid) {
+  constexpr unsigned long long kInterrupt = 1ull << (SIGINT - 1);
+  for (int tries = 0; tries < 2000; ++tries) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) & kInterrupt) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() : mPath(makeTemporaryFolder()) {}
@@ -62,21 +73,6 @@ std::vector<std::string> TemporaryFolder::entries() const {
   std::sort(names.begin(), names.end());
   return names;
 }
-
-namespace {
-
-/// Waits until the process catches SIGINT; before that the signal would end it like any other program.
-void waitUntilInterruptible(pid_t pid) {
-  constexpr unsigned long long kInterrupt = 1ull << (SIGINT - 1);
-  for (int tries = 0; tries < 2000; ++tries) {
-    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-    for (std::string line; std::getline(status, line);)
-      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) & kInterrupt) != 0) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-}
-
-}  // namespace
 
 Outcome runPdc(const Arguments& arguments, const RunOptions& options) {
   const TemporaryFolder captured;

@@ -36,13 +36,14 @@ using Arguments = std::vector<std::string>;
 struct RunOptions {
   double interruptAfter = 0;        ///< Seconds from when it catches SIGINT to when it gets it; 0 for never.
   std::string standardOutput = {};  ///< A file or device in place of the captured output.
-  std::string standardError = {};   ///< The same for errors.
+  std::string standardError = {};   ///< A file or device in place of the captured errors.
 };
 
 /// Runs the built pdc with these arguments and waits for it.
 [[nodiscard]] Outcome runPdc(const Arguments& arguments, const RunOptions& options = {});
 
-/// That the program refused with this exit code and one line of its own on standard error, which holds these texts.
+/// Expects that the program refused with this exit code and one line of its own on standard error, which holds these
+/// texts.
 void expectOneLineRefusal(const Outcome& outcome, int exitCode, const std::vector<std::string>& mentions);
 
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);

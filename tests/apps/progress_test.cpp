@@ -20,7 +20,7 @@ class Terminal {
  public:
   Terminal() : mMaster(::posix_openpt(O_RDWR | O_NOCTTY)) {
     if (mMaster < 0 || ::grantpt(mMaster) != 0 || ::unlockpt(mMaster) != 0) throw std::runtime_error("no terminal");
-    // Held open, so that nothing is lost when the program ends.
+    // It is held open, so that nothing is lost when the program ends.
     mHeld = ::open(name().c_str(), O_RDWR | O_NOCTTY);
     ::fcntl(mMaster, F_SETFL, O_NONBLOCK);
   }
@@ -58,7 +58,7 @@ TEST(Progress, HasARateAndTheTimeLeft) {
   const std::string shown = shownBy(longWork(folder), 3);
   EXPECT_TRUE(std::regex_search(shown, std::regex(R"(\[=* *\] +\d+ % [a-z ]+, [0-9.e+-]+ %/s, [0-9:]+ (s|min) left)")))
       << shown;
-  // Wiped in the end.
+  // The bar is wiped in the end.
   EXPECT_NE(shown.find("\r\033[Kpdc: interrupted"), std::string::npos) << shown;
 }
 

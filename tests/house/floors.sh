@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Nothing includes a higher floor, nor, within a floor, a higher room: looks at every #include line of include/pdc, src
-# and apps. Usage: floors.sh ROOT
+# Nothing includes a higher floor, nor, within a floor, a higher room, and no rooms include each other in a circle: looks
+# at every #include line of include/pdc, src and apps, and prints which rooms know which. Usage: floors.sh ROOT
 set -euo pipefail
 cd "$1"
 
@@ -48,6 +48,7 @@ find_place() {
 
 failures=0
 checked=0
+declare -A arrows=()  # "room other": the first includes files of the other.
 while IFS=: read -r file line; do
   [[ "$line" =~ \"(pdc/)?([^\"]+)\" ]] || continue
   included=${BASH_REMATCH[2]}
@@ -56,6 +57,7 @@ while IFS=: read -r file line; do
   own_floor=$floor own_room=$room own_rank=$rank
   find_place "$included"
   checked=$((checked + 1))
+  [[ "$room" == "$own_room" ]] || arrows["$own_room $room"]=1
   if ((floor > own_floor)); then
     echo "$file includes a higher floor: $included"
     failures=$((failures + 1))
@@ -66,5 +68,30 @@ while IFS=: read -r file line; do
   fi
 done < <(grep -rE --include='*.h' --include='*.cpp' '^ *# *include "' include/pdc src apps)
 
-echo "$checked includes, $failures to a higher floor or room"
+# A room stands one level above the highest that it knows. In a circle there is no such level.
+declare -A level=() knows=()
+for arrow in "${!arrows[@]}"; do
+  level[${arrow% *}]=0
+  level[${arrow#* }]=0
+  knows[${arrow% *}]+=" ${arrow#* }"
+done
+for ((rounds = 0; rounds <= ${#level[@]}; ++rounds)); do
+  raised=()
+  for room in "${!level[@]}"; do
+    for other in ${knows[$room]-}; do
+      ((level[$room] > level[$other])) || { level[$room]=$((level[$other] + 1)) && raised+=("$room"); }
+    done
+  done
+  ((${#raised[@]} > 0)) || break
+done
+for room in "${!level[@]}"; do
+  echo "level ${level[$room]}: $room knows $(xargs -n 1 <<<"${knows[$room]-nothing}" | sort | xargs)"
+done | sort -t ' ' -k 2n -k 3
+echo "${#arrows[@]} arrows between ${#level[@]} rooms"
+if ((${#raised[@]} > 0)); then
+  echo "rooms that include each other in a circle, or stand on one: $(printf '%s\n' "${raised[@]}" | sort -u | tr '\n' ' ')"
+  failures=$((failures + 1))
+fi
+
+echo "$checked includes, $failures failures"
 ((failures == 0 && checked > 100))

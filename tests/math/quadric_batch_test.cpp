@@ -12,12 +12,12 @@
 #include "math/random_geometry.h"
 #include "pdc/math/solvers.h"
 #include "pdc/math/triangle_quadric.h"
+#include "simd_levels.h"
 
 namespace pdc {
 namespace {
 
 constexpr std::size_t kBatches = 7;
-constexpr SimdLevel kLevels[] = {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512};
 
 template <typename T>
 SymMat3<T> symCast(const SymMat3<double>& m) {
@@ -61,7 +61,7 @@ bool sameBits(const Quadric<T>& p, const Quadric<T>& q) {
 /// Runs `function` with both kinds of output at every level and expects the bits of `one(batch, lane)`.
 template <typename T, typename Function, typename One>
 void expectSameAsOneByOne(const Function& function, const One& one) {
-  for (const SimdLevel level : kLevels) {
+  for (const SimdLevel level : test::simdLevels()) {
     std::vector<QuadricLanes<T>> quadrics(kBatches);
     std::vector<NormalEquationsLanes<T>> equations(kBatches);
     function(std::span(quadrics), level);
@@ -97,7 +97,7 @@ TYPED_TEST(QuadricBatch, PlanesAreThoseOfOneByOne) {
       [&](std::size_t i, int lane) {
         return probabilisticPlaneQuadric(q(i, lane), n(i, lane), in.Sigma_n[i].get(lane));
       });
-  for (const SimdLevel level : kLevels) {
+  for (const SimdLevel level : test::simdLevels()) {
     std::vector<QuadricLanes<T>> out(kBatches);
     probabilisticPlaneQuadrics<T>(in.planes, in.Sigma_n, in.Sigma_q, out, level);
     EXPECT_TRUE(sameBits(out[3].get(5),
@@ -141,7 +141,7 @@ TYPED_TEST(QuadricBatch, SolutionsAreThoseOfOneByOne) {
   probabilisticTriangleQuadrics(in.triangles, T(0.1), std::span(systems));
   systems[2].set(3, planeQuadric(Vec3<T>{1, 2, 3}, Vec3<T>{0, 0, 1}));
   systems[4].set(9, Quadric<T>::zero());
-  for (const SimdLevel level : kLevels) {
+  for (const SimdLevel level : test::simdLevels()) {
     std::vector<SolutionLanes<T>> solutions(kBatches);
     solveLdlt<QuadricLanes<T>>(systems, solutions, level);
     for (std::size_t i = 0; i < kBatches; ++i) {
@@ -188,7 +188,7 @@ TYPED_TEST(QuadricBatch, SumsHaveTheSameBitsAtEveryLevel) {
     planeQuadrics(plane, std::span(&quadrics[i], 1));
   }
   const Quadric<T> sum = sumQuadrics<T>(quadrics, SimdLevel::kBaseline);
-  for (const SimdLevel level : kLevels) EXPECT_TRUE(sameBits(sumQuadrics<T>(quadrics, level), sum));
+  for (const SimdLevel level : test::simdLevels()) EXPECT_TRUE(sameBits(sumQuadrics<T>(quadrics, level), sum));
 }
 
 // A running sum in single precision is a percent off.

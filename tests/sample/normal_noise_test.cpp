@@ -1,10 +1,14 @@
 #include "pdc/sample/normal_noise.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
 
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/vdb/grid_source.h"
 #include "sample/creases/noisy_part.h"
+#include "sample/watched_source.h"
 
 namespace pdc {
 namespace {
@@ -24,6 +28,20 @@ TEST(NormalNoise, GrowsWithTheNoiseOfTheValues) {
     EXPECT_NEAR(found / noise, 0.8, 0.2);
     last = found;
   }
+}
+
+TEST(NormalNoise, StopEndsItWithinABlock) {
+  std::atomic<bool> stop = false;
+  std::atomic<int> blocks = 0;
+  const FieldSource source = sourceOf(box({0, 0, 0}, {1, 1, 0.5}));
+  const test::WatchedSource watched(source, {.hermite = [&] {
+                                      ++blocks;
+                                      stop = true;
+                                    }});
+  const Monitor monitor{.stop = &stop};
+  const auto estimate = [&] { static_cast<void>(normalNoise(watched, monitor)); };
+  EXPECT_THROW(tbb::task_arena(1).execute(estimate), Cancelled);
+  EXPECT_EQ(blocks, 1);
 }
 
 }  // namespace

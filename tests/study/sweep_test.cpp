@@ -124,7 +124,7 @@ TEST(SweepInputs, ErrorsOfASphereFallWithTheVoxelSize) {
     SweepTruth truth{.field = source->levelField()};
     return SweepInput{std::move(source), std::move(truth)};
   };
-  const Sweep sweep = sweepInputs("voxel_size", {0.2, 0.1, 0.05}, open, {});
+  const Sweep sweep = sweepInputs(SweepParameter::kVoxelSize, {0.2, 0.1, 0.05}, open, {});
   ASSERT_EQ(sweep.steps.size(), 3u);
   for (std::size_t i = 1; i < 3; ++i) {
     const SweepStep &coarse = sweep.steps[i - 1], &fine = sweep.steps[i];

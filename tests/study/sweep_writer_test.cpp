@@ -15,7 +15,7 @@ namespace pdc {
 namespace {
 
 Sweep twoSteps() {
-  Sweep sweep{.parameter = "sigma_n"};
+  Sweep sweep{.parameter = SweepParameter::kSigmaNormal};
   SweepStep first{.value = 0.1, .voxelSize = 0.5, .seconds = 0.25, .vertices = 12, .faces = 10};
   first.vertexRms = 0.0625;
   first.vertexMax = 0.5;

@@ -4,6 +4,7 @@
 
 #include "pdc/math/box.h"
 #include "pdc/mesh/mesh.h"
+#include "pdc/monitor.h"
 
 namespace pdc {
 
@@ -28,7 +29,8 @@ struct MeshReport {
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
-/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says.
-[[nodiscard]] MeshReport analyze(const Mesh& mesh);
+/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says; Cancelled, which is noticed
+/// between passes over the mesh. No progress is reported.
+[[nodiscard]] MeshReport analyze(const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace pdc

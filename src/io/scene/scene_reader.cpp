@@ -8,14 +8,13 @@
 
 #include "io/scene/scene_shapes.h"
 #include "io/scene/yaml_value.h"
+#include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
 namespace {
 
 using detail::YamlMap;
 using detail::YamlValue;
-
-constexpr long long kMaxResolution = 1 << 20;
 
 Box readBox(const YamlValue& value) {
   const std::vector<YamlValue> corners = value.list(2);
@@ -32,7 +31,7 @@ double readVoxelSize(const YamlValue& self, const YamlMap& scene, const Box& box
     self.fail("scene needs either resolution or voxel_size, not both or none");
   if (scene.has("voxel_size")) return scene["voxel_size"].positiveNumber();
   const Vec3d size = box.hi - box.lo;
-  return std::max({size.x, size.y, size.z}) / static_cast<double>(scene["resolution"].integer(1, kMaxResolution));
+  return std::max({size.x, size.y, size.z}) / static_cast<double>(scene["resolution"].integer(1, kMaxVoxelsPerAxis));
 }
 
 double readSigma(const YamlValue& value) {

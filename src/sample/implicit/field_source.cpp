@@ -19,11 +19,8 @@
 namespace pdc {
 namespace {
 
-constexpr double kMaxCells = 1 << 20;
 // So that a crossing can be told from its neighbours 2^-20 of an edge away in double precision.
 constexpr double kSmallestRelativeVoxel = 0x1p-32;
-// A box that exceeds a whole number of voxels by less than this, in voxels, is taken for that number.
-constexpr double kWholeVoxels = 1e-9;
 
 void check(const FieldSourceOptions& options) {
   const double h = options.voxelSize;
@@ -34,8 +31,9 @@ void check(const FieldSourceOptions& options) {
     const double lo = options.box.lo[axis], hi = options.box.hi[axis];
     if (!std::isfinite(lo) || !std::isfinite(hi) || !(lo < hi))
       throw Error(fmt::format("box must be finite and not empty, not go from {} to {} along {}", lo, hi, name));
-    if (const double cells = (hi - lo) / h; !(cells <= kMaxCells))
-      throw Error(fmt::format("voxels per axis must be at most {:.0f}, not {:.0f} along {}", kMaxCells, cells, name));
+    if (const double cells = (hi - lo) / h; !(cells <= kMaxVoxelsPerAxis))
+      throw Error(
+          fmt::format("voxels per axis must be at most {}, not {:.0f} along {}", kMaxVoxelsPerAxis, cells, name));
     const double smallest = kSmallestRelativeVoxel * std::max(std::abs(lo), std::abs(hi));
     if (h < smallest)
       throw Error(fmt::format("voxel size must be at least {} at these coordinates, not {}", smallest, h));
@@ -44,10 +42,8 @@ void check(const FieldSourceOptions& options) {
 
 Coord cellCounts(const FieldSourceOptions& options) {
   Coord n;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cells = (options.box.hi[axis] - options.box.lo[axis]) / options.voxelSize;
-    n[axis] = std::max(1, static_cast<int>(std::ceil(cells - kWholeVoxels)));
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    n[axis] = static_cast<int>(voxelsAlong(options.box.hi[axis] - options.box.lo[axis], options.voxelSize));
   return n;
 }
 
@@ -66,6 +62,11 @@ FieldPtr makeLevelField(FieldPtr field, const FieldSourceOptions& options) {
 }
 
 }  // namespace
+
+long long voxelsAlong(double side, double voxelSize) {
+  constexpr double kHair = 1e-9;  // voxels
+  return std::max(1LL, static_cast<long long>(std::ceil(side / voxelSize - kHair)));
+}
 
 FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
     : mField(makeLevelField(std::move(field), options)),

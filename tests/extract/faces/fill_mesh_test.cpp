@@ -6,6 +6,7 @@
 #include <random>
 
 #include "extract/sign_source.h"
+#include "simd_levels.h"
 
 namespace pdc {
 namespace {
@@ -34,7 +35,7 @@ TEST(FillMesh, GivesTheSameBytesWithEveryInstructionSet) {
           .sigma = sigma, .halfSize = halfSize, .normals = true, .level = SimdLevel::kBaseline};
       const Mesh plain = fill(source, options);
       ASSERT_GT(plain.quads.size(), 10'000u);
-      for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+      for (const SimdLevel level : test::wideSimdLevels()) {
         options.level = level;
         const Mesh mesh = fill(source, options);
         EXPECT_TRUE(sameBytes(mesh.positions, plain.positions)) << sigma;

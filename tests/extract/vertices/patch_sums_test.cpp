@@ -9,6 +9,7 @@
 
 #include "extract/sign_source.h"
 #include "math/lane_loops.h"
+#include "simd_levels.h"
 
 namespace pdc::detail {
 namespace {
@@ -99,7 +100,7 @@ void expectTheSameWithEveryInstructionSet(const Block& block) {
   PatchSums plain;
   add<kNoisy>(block, plain, SimdLevel::kBaseline);
   expectSums<kNoisy>(block, plain);
-  for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+  for (const SimdLevel level : test::wideSimdLevels()) {
     PatchSums sums;
     add<kNoisy>(block, sums, level);
     for (std::size_t first = 0; first < block.patches.size(); first += kLanes)

@@ -61,6 +61,8 @@ struct Figures {
   Vec3d extent;
 };
 
+void PrintTo(const Figures& f, std::ostream* out) { *out << f.name; }
+
 /// Figures that another program found in the same files.
 class ReadRealMesh : public testing::TestWithParam<Figures> {};
 

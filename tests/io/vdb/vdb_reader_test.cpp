@@ -273,6 +273,8 @@ struct RealGrid {
   double background, valueMin, valueMax;
 };
 
+void PrintTo(const RealGrid& grid, std::ostream* out) { *out << grid.file << ", " << grid.name; }
+
 class RealVdb : public testing::TestWithParam<RealGrid> {};
 
 TEST_P(RealVdb, HasTheFiguresOfTheManifest) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "simd_levels.h"
+
 namespace pdc {
 namespace {
 
@@ -85,7 +87,7 @@ TEST(FillFromStencil, GivesUnitNormalsOrNoneAndTheSameBitsWithEveryInstructionSe
       const float l = length(Vec3f{plain.nx[i], plain.ny[i], plain.nz[i]});
       ASSERT_TRUE(l == 0 || std::abs(l - 1) < 1e-6F) << l;
     }
-    for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    for (const SimdLevel level : test::wideSimdLevels()) {
       fillFromStencil(stencil, edges, limits, map, other, level);
       const auto same = [&](const auto& a, const auto& b) {
         return std::memcmp(a.data(), b.data(), sizeof(float) * static_cast<std::size_t>(edges.size())) == 0;

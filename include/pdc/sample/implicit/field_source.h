@@ -5,9 +5,17 @@
 
 namespace pdc {
 
+/// The most voxels that a FieldSource's lattice may have along an axis.
+inline constexpr int kMaxVoxelsPerAxis = 1 << 20;
+
+/// Voxels along a side of a FieldSource's box: as many as cover it, but at least one. A side that exceeds a whole
+/// number of voxels by less than 1e-9 voxel has that number. Both lengths in the same unit, finite, voxelSize > 0,
+/// their ratio below 2^63.
+[[nodiscard]] long long voxelsAlong(double side, double voxelSize);
+
 struct FieldSourceOptions {
   Box box;               ///< World units. The surface is looked for inside it.
-  double voxelSize = 0;  ///< World units, > 0. The lattice starts at box.lo; at most 2^20 voxels per axis.
+  double voxelSize = 0;  ///< World units, > 0. The lattice starts at box.lo; see voxelsAlong().
   double iso = 0;        ///< The surface is where the field equals this.
   /// false: the solid is cut off at the box and the mesh is closed. true: the surface ends within a voxel of the box.
   bool open = false;

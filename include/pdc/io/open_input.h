@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pdc/extract/contour.h"
+#include "pdc/field/field.h"
+#include "pdc/sample/hermite_source.h"
+#include "pdc/sample/vdb/grid_source.h"
+
+namespace pdc {
+
+/// What a file holds, by its suffix in upper or lower case: .vdb is a grid, .yaml and .yml are scenes.
+enum class InputKind { kGrid, kScene, kOther };
+
+/// Looks at the name alone; the file need not exist.
+[[nodiscard]] InputKind inputKind(const std::filesystem::path& path);
+
+/// How to read an input. What is empty, false or kAuto is not asked for, and goes with every kind of input.
+struct InputOptions {
+  std::optional<double> iso{};  ///< Finite. Empty: 0 for level sets, 0.5 for fog volumes, what a scene says.
+  bool open = false;            ///< The surface ends where the data ends, instead of being closed.
+
+  // For grids only.
+  std::optional<std::string> grid{};  ///< As readVdbGrid() takes it. Empty: the only grid that can be contoured.
+  bool acceptNonFinite = false;       ///< NaN and infinite voxels are no error; see GridSourceOptions.
+  HermiteMode hermite = HermiteMode::kAuto;
+  std::optional<std::string> sigmaGrid{};  ///< A grid of the same file: standard deviation of each value, in its units.
+  std::optional<std::string> weightGrid{};  ///< A grid of the same file: how much each value counts beside others.
+
+  // For scenes only; at most one of them. Neither: what the scene says.
+  std::optional<double> voxelSize{};  ///< World units, > 0.
+  std::optional<int> resolution{};    ///< Voxels along the longest side of the box, 1 to kMaxVoxelsPerAxis.
+};
+
+/// Where the planes of an input come from.
+enum class PlaneOrigin {
+  kGradient,  ///< A grid's gradients at the crossings.
+  kDistance,  ///< Beside creases, a grid's distances; see GridSource.
+  kFunction,  ///< The gradients of a scene's function.
+};
+
+/// "gradient", "distance" or "function", as reports have it.
+[[nodiscard]] std::string_view planeOriginName(PlaneOrigin origin);
+
+/// An input that is ready to be contoured.
+struct Input {
+  std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
+  double iso = 0;                               ///< In the grid's or the function's own units.
+  double sigmaNormal = kDefaultSigmaNormal;     ///< σn (no unit, >= 0 or infinite) that a scene says, or the default.
+  FieldPtr field{};  ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
+  PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
+  double valueNoise = 0;         ///< Standard deviation of the values' noise in voxels where it was estimated; else 0.
+  std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite; they count as 0.
+  /// Says in a clause why a contour of this source is empty. Reads a grid's file again. \throws Error if that fails.
+  std::function<std::string()> whyEmpty;
+};
+
+/// Reads a .vdb grid or a scene and makes the source that `pdc mesh` contours. A grid is wholly in memory afterwards;
+/// OpenVDB is initialised on the way. Cannot be stopped while OpenVDB reads. \throws Error for another kind of file,
+/// options that go with another kind of input, both a voxel size and a resolution, a σ or weight grid without a name or
+/// that is the grid itself; whatever readVdbGrid(), GridSource, readScene() and FieldSource throw.
+[[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {});
+
+}  // namespace pdc

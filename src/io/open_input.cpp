@@ -1,0 +1,141 @@
+#include "pdc/io/open_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pdc/error.h"
+#include "pdc/io/scene/scene_reader.h"
+#include "pdc/io/vdb/vdb_reader.h"
+#include "pdc/sample/implicit/field_source.h"
+
+namespace pdc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lowerCaseSuffix(const fs::path& path) {
+  std::string suffix = path.extension().string();
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+void refuseOther(bool given, const fs::path& path, const char* option, const char* takers) {
+  if (given) throw Error(fmt::format("'{}': {} goes with {} only", path.string(), option, takers));
+}
+
+void checkGridOptions(const fs::path& path, const InputOptions& options) {
+  refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes");
+  refuseOther(options.resolution.has_value(), path, "a resolution", "scenes");
+}
+
+void checkSceneOptions(const fs::path& path, const InputOptions& options) {
+  const auto grids = ".vdb inputs";
+  refuseOther(options.grid.has_value(), path, "a grid's name", grids);
+  refuseOther(options.acceptNonFinite, path, "accepting non-finite values", grids);
+  refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
+  refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
+  refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
+  if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
+  if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
+    throw Error(fmt::format("the resolution must be from 1 to {}, not {}", kMaxVoxelsPerAxis, *options.resolution));
+}
+
+std::string whyGridIsEmpty(const fs::path& path, const std::string& name, double iso) {
+  for (const VdbGridInfo& grid : listVdbGrids(path)) {
+    if (grid.name != name) continue;
+    const auto [lo, hi] = std::minmax({grid.background, grid.activeVoxels > 0 ? grid.valueMin : grid.background,
+                                       grid.activeVoxels > 0 ? grid.valueMax : grid.background});
+    if (iso < lo || iso > hi)
+      return fmt::format("iso {} is outside of the grid's values, {:.6g} to {:.6g}", iso, lo, hi);
+  }
+  return fmt::format("the grid has no surface at iso {}", iso);
+}
+
+/// A grid that says something of another one's values, or null. `role`: how errors call it.
+openvdb::GridBase::ConstPtr readCompanion(const fs::path& path, const std::optional<std::string>& name,
+                                          const openvdb::GridBase& grid, const char* role) {
+  if (!name) return nullptr;
+  if (name->empty()) throw Error(fmt::format("the name of the {} grid is empty", role));
+  if (*name == grid.getName()) throw Error(fmt::format("the {} grid '{}' is the grid itself", role, *name));
+  return readVdbGrid(path, *name);
+}
+
+Input openGrid(const fs::path& path, const InputOptions& options) {
+  checkGridOptions(path, options);
+  const auto grid = readVdbGrid(path, options.grid.value_or(""));
+  auto source = std::make_unique<GridSource>(
+      grid, GridSourceOptions{.iso = options.iso,
+                              .open = options.open,
+                              .acceptNonFinite = options.acceptNonFinite,
+                              .hermite = options.hermite,
+                              .sigma = readCompanion(path, options.sigmaGrid, *grid, "sigma"),
+                              .weight = readCompanion(path, options.weightGrid, *grid, "weight")});
+  Input input;
+  input.iso = source->iso();
+  input.planeOrigin = source->usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
+  input.valueNoise = source->valueNoise();
+  input.refusedNoise = source->refusedNoise();
+  input.whyEmpty = [path, name = grid->getName(), iso = input.iso] { return whyGridIsEmpty(path, name, iso); };
+  input.source = std::move(source);
+  return input;
+}
+
+double longestSide(const Box& box) {
+  const Vec3d size = box.hi - box.lo;
+  return std::max({size.x, size.y, size.z});
+}
+
+Input openScene(const fs::path& path, const InputOptions& options) {
+  checkSceneOptions(path, options);
+  const Scene scene = readScene(path);
+  double voxelSize = options.voxelSize.value_or(scene.voxelSize);
+  if (options.resolution) voxelSize = longestSide(scene.box) / *options.resolution;
+  Input input;
+  input.iso = options.iso.value_or(scene.iso);
+  input.sigmaNormal = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
+  auto source = std::make_unique<FieldSource>(
+      scene.field,
+      FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = input.iso, .open = options.open});
+  input.field = source->levelField();
+  input.planeOrigin = PlaneOrigin::kFunction;
+  input.whyEmpty = [iso = input.iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); };
+  input.source = std::move(source);
+  return input;
+}
+
+}  // namespace
+
+InputKind inputKind(const fs::path& path) {
+  const std::string suffix = lowerCaseSuffix(path);
+  if (suffix == ".vdb") return InputKind::kGrid;
+  if (suffix == ".yaml" || suffix == ".yml") return InputKind::kScene;
+  return InputKind::kOther;
+}
+
+std::string_view planeOriginName(PlaneOrigin origin) {
+  switch (origin) {
+    case PlaneOrigin::kGradient:
+      return "gradient";
+    case PlaneOrigin::kDistance:
+      return "distance";
+    case PlaneOrigin::kFunction:
+      return "function";
+  }
+  return "";
+}
+
+Input openInput(const fs::path& path, const InputOptions& options) {
+  switch (inputKind(path)) {
+    case InputKind::kGrid:
+      return openGrid(path, options);
+    case InputKind::kScene:
+      return openScene(path, options);
+    case InputKind::kOther:
+      break;
+  }
+  throw Error(fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", path.string()));
+}
+
+}  // namespace pdc

@@ -1,0 +1,152 @@
+#include "pdc/io/open_input.h"
+
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+
+#include <limits>
+
+#include "io/vdb/vdb_files.h"
+#include "pdc/error.h"
+#include "pdc/sample/implicit/field_source.h"
+
+namespace pdc {
+namespace {
+
+const std::string kScene =
+    "voxel_size: 0.25\nbox: [[-2, -1, -1], [2, 1, 1]]\niso: 0.125\nsigma_n: 0.07\nshape: {sphere: {radius: 0.5}}\n";
+
+openvdb::FloatGrid::Ptr sameEverywhere(const openvdb::FloatGrid& grid, const char* name, float value) {
+  auto companion = grid.deepCopy();
+  companion->setName(name);
+  for (auto voxel = companion->beginValueOn(); voxel; ++voxel) voxel.setValue(value);
+  return companion;
+}
+
+class OpenInput : public VdbFiles {
+ protected:
+  [[nodiscard]] std::filesystem::path scene(const std::string& text = kScene) const {
+    writeContents(mFolder / "a.yaml", text);
+    return mFolder / "a.yaml";
+  }
+  /// A sphere, and noise of its values: good, negative.
+  [[nodiscard]] std::filesystem::path grids() const {
+    const auto grid = sphere();
+    return write({grid, sameEverywhere(*grid, "sigma", 0.125F), sameEverywhere(*grid, "faulty", -1)});
+  }
+};
+
+std::string errorOfOpening(const std::filesystem::path& path, const InputOptions& options) {
+  return errorOf([&] { static_cast<void>(openInput(path, options)); });
+}
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(InputKind, GoesByTheSuffixInAnyCase) {
+  EXPECT_EQ(inputKind("a.vdb"), InputKind::kGrid);
+  EXPECT_EQ(inputKind("folder.yaml/a.VDB"), InputKind::kGrid);
+  EXPECT_EQ(inputKind("a.yaml"), InputKind::kScene);
+  EXPECT_EQ(inputKind("a.Yml"), InputKind::kScene);
+  for (const char* name : {"a.ply", "vdb", ".vdb", "a.vdb.gz", "a", ""}) EXPECT_EQ(inputKind(name), InputKind::kOther);
+}
+
+TEST_F(OpenInput, AGridSaysWhatItsSourceSays) {
+  const Input input = openInput(write({sphere()}));
+  EXPECT_EQ(input.iso, 0);
+  EXPECT_EQ(input.sigmaNormal, kDefaultSigmaNormal);
+  EXPECT_EQ(input.field, nullptr);
+  EXPECT_EQ(input.planeOrigin, PlaneOrigin::kDistance);
+  EXPECT_LT(input.valueNoise, 0.01);
+  EXPECT_EQ(input.refusedNoise, 0u);
+  const auto same = sphere();
+  const Mesh mesh = contour(*input.source), expected = contour(GridSource(same));
+  ASSERT_FALSE(mesh.empty());
+  EXPECT_EQ(mesh.positions, expected.positions);
+}
+
+TEST_F(OpenInput, OptionsReachTheGrid) {
+  const auto path = grids();
+  const std::size_t values = sphere()->activeVoxelCount();
+  const Input input =
+      openInput(path, {.iso = 0.25, .grid = "sphere", .hermite = HermiteMode::kGradient, .sigmaGrid = "sigma"});
+  EXPECT_EQ(input.iso, 0.25);
+  EXPECT_EQ(input.planeOrigin, PlaneOrigin::kGradient);
+  EXPECT_EQ(input.refusedNoise, 0u);
+  EXPECT_EQ(openInput(path, {.grid = "sphere", .sigmaGrid = "faulty"}).refusedNoise, values);
+  EXPECT_EQ(openInput(path, {.grid = "sphere", .weightGrid = "faulty"}).refusedNoise, values);
+}
+
+TEST_F(OpenInput, NonFiniteVoxelsAreAnErrorUnlessAccepted) {
+  const auto spoiled = sphere();
+  spoiled->tree().setValueOn({2, 4, 16}, std::numeric_limits<float>::quiet_NaN());
+  const auto path = write({spoiled});
+  EXPECT_THROW(static_cast<void>(contour(*openInput(path).source)), Error);
+  EXPECT_FALSE(contour(*openInput(path, {.acceptNonFinite = true}).source).empty());
+}
+
+TEST_F(OpenInput, ASceneSaysItsIsoItsSigmaAndItsFunction) {
+  const Input input = openInput(scene());
+  EXPECT_EQ(input.iso, 0.125);
+  EXPECT_EQ(input.sigmaNormal, 0.07);
+  EXPECT_EQ(input.planeOrigin, PlaneOrigin::kFunction);
+  EXPECT_DOUBLE_EQ(input.source->map().voxelSize(), 0.25);
+  ASSERT_NE(input.field, nullptr);
+  for (const Vec3f& p : contour(*input.source).positions) EXPECT_NEAR(length(vecCast<double>(p)), 0.625, 0.05);
+  const double x = 0.625, y = 0;
+  double value = 1;
+  input.field->values({&x, &y, &y, 1}, &value);
+  EXPECT_NEAR(value, 0, 1e-12);
+}
+
+TEST_F(OpenInput, OptionsReachTheScene) {
+  const auto path = scene();
+  EXPECT_EQ(openInput(path, {.iso = -0.1}).iso, -0.1);
+  EXPECT_DOUBLE_EQ(openInput(path, {.voxelSize = 0.5}).source->map().voxelSize(), 0.5);
+  // The longest side of the box is 4.
+  EXPECT_DOUBLE_EQ(openInput(path, {.resolution = 32}).source->map().voxelSize(), 0.125);
+  EXPECT_TRUE(openInput(path, {.open = true}).source->surfaceBlocks({}).open);
+  EXPECT_FALSE(openInput(path).source->surfaceBlocks({}).open);
+}
+
+TEST_F(OpenInput, WhyThereIsNoSurface) {
+  const auto grid = write({sphere()});
+  EXPECT_EQ(openInput(grid, {.iso = 7}).whyEmpty(), "iso 7 is outside of the grid's values, -1.46447 to 1.5");
+  EXPECT_EQ(openInput(grid).whyEmpty(), "the grid has no surface at iso 0");
+  EXPECT_EQ(openInput(scene(), {.iso = -3}).whyEmpty(), "the scene has no surface at iso -3 in its box");
+}
+
+TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
+  const auto grid = write({sphere()});
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes only"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes only"));
+  const InputOptions forGrids[] = {{.grid = "a"},
+                                   {.acceptNonFinite = true},
+                                   {.hermite = HermiteMode::kGradient},
+                                   {.sigmaGrid = "a"},
+                                   {.weightGrid = "a"}};
+  for (const InputOptions& options : forGrids)
+    EXPECT_TRUE(mentions(errorOfOpening(scene(), options), ".vdb inputs only")) << errorOfOpening(scene(), options);
+}
+
+TEST_F(OpenInput, Refusals) {
+  EXPECT_TRUE(mentions(errorOfOpening("mesh.obj", {}), "'mesh.obj': not a kind of input"));
+  EXPECT_TRUE(mentions(errorOfOpening(mFolder / "none.vdb", {}), "No such file"));
+  EXPECT_TRUE(mentions(errorOfOpening(mFolder / "none.yaml", {}), "No such file"));
+  EXPECT_TRUE(mentions(errorOfOpening(scene(), {.voxelSize = 1, .resolution = 9}), "excludes"));
+  for (const int resolution : {-1, 0, kMaxVoxelsPerAxis + 1})
+    EXPECT_TRUE(mentions(errorOfOpening(scene(), {.resolution = resolution}), "from 1 to 1048576")) << resolution;
+  EXPECT_TRUE(mentions(errorOfOpening(scene(), {.voxelSize = -1}), "voxel size"));
+  const auto grid = grids();
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {}), "sphere"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.grid = "sphere", .sigmaGrid = "sphere"}), "itself"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.grid = "sphere", .weightGrid = ""}), "weight grid is empty"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.grid = "sphere", .weightGrid = "none"}), "none"));
+}
+
+TEST(PlaneOriginName, IsThatOfReports) {
+  EXPECT_EQ(planeOriginName(PlaneOrigin::kGradient), "gradient");
+  EXPECT_EQ(planeOriginName(PlaneOrigin::kDistance), "distance");
+  EXPECT_EQ(planeOriginName(PlaneOrigin::kFunction), "function");
+}
+
+}  // namespace
+}  // namespace pdc
