@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/lane_loops.h"
+#include "sample/vdb/contourable_grids.h"
 #include "sample/vdb/gradient_stencil.h"
 #include "sample/vdb/leaf_signs.h"
 #include "sample/vdb/tile_faces.h"
@@ -368,21 +369,15 @@ class TypedGridSampler final : public GridSampler {
   float mLow, mHigh;
 };
 
-template <typename GridT>
-std::unique_ptr<const GridSampler> tryMake(const openvdb::GridBase::ConstPtr& grid, const GridReading& reading) {
-  if (!grid->isType<GridT>()) return nullptr;
-  return std::make_unique<TypedGridSampler<GridT>>(openvdb::GridBase::constGrid<GridT>(grid), reading);
-}
-
 }  // namespace
 
 std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid,
                                                    const GridReading& reading) {
-  if (auto s = tryMake<openvdb::FloatGrid>(grid, reading)) return s;
-  if (auto s = tryMake<openvdb::DoubleGrid>(grid, reading)) return s;
-  if (auto s = tryMake<openvdb::Int32Grid>(grid, reading)) return s;
-  if (auto s = tryMake<openvdb::Int64Grid>(grid, reading)) return s;
-  return tryMake<openvdb::BoolGrid>(grid, reading);
+  std::unique_ptr<const GridSampler> sampler;
+  visitContourable(*grid, [&]<typename GridT>(const GridT&) {
+    sampler = std::make_unique<TypedGridSampler<GridT>>(openvdb::GridBase::constGrid<GridT>(grid), reading);
+  });
+  return sampler;
 }
 
 }  // namespace pdc::detail

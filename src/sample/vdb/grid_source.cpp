@@ -1,5 +1,6 @@
 #include "pdc/sample/vdb/grid_source.h"
 
+#include <fmt/format.h>
 #include <openvdb/openvdb.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "sample/creases/distance_planes.h"
 #include "sample/creases/distance_probe.h"
+#include "sample/vdb/contourable_grids.h"
 #include "sample/vdb/grid_sampler.h"
 #include "sample/vdb/noise_grids.h"
 
@@ -19,9 +21,7 @@ constexpr double kDensityIso = 0.5;
 
 double background(const openvdb::GridBase& grid) {
   double value = 0;
-  const auto read = [&](const auto& typed) { value = static_cast<double>(typed.background()); };
-  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
-                               openvdb::BoolGrid>>(read);
+  detail::visitContourable(grid, [&](const auto& typed) { value = static_cast<double>(typed.background()); });
   return value;
 }
 
@@ -112,7 +112,8 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
 
   auto sampler = detail::makeGridSampler(grid, reading);
   if (!sampler)
-    throw Error("grid of type " + grid->valueType() + " cannot be contoured; float, double, int32, int64 and bool can");
+    throw Error(
+        fmt::format("grid of type {} cannot be contoured; {} can", grid->valueType(), detail::contourableTypeNames()));
   LatticeMap map = makeMap(grid->transform());
   const bool mayBeDistance = distance && (grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>());
   std::optional<detail::DistanceModel> distances = readDistances(options.hermite, mayBeDistance, *sampler, map);
