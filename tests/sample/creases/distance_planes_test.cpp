@@ -49,7 +49,7 @@ SurfaceSamples samplesAbout(const DistanceStencil& w, const Coord& cell, const M
                             SimdLevel level = bestSimdLevel()) {
   const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, M, level);
   SurfaceSamples samples;
-  voxels->expect(cell);
+  voxels->request(cell);
   voxels->gather(cell, samples);
   return samples;
 }
@@ -109,8 +109,8 @@ TEST(VoxelPlanes, DoNotDependOnOtherCells) {
   const SurfaceSamples alone = samplesAbout(w, cell);
   const auto voxels = std::make_unique<VoxelPlanes>(w, kTolerance, Mat3f::identity());
   // In the rows of the cell, so that these are too long for half the lanes, and in rows of their own.
-  for (const Coord& other : {Coord{4, 4, 0}, Coord{4, 5, 7}, Coord{0, 0, 0}, Coord{7, 7, 7}}) voxels->expect(other);
-  voxels->expect(cell);
+  for (const Coord& other : {Coord{4, 4, 0}, Coord{4, 5, 7}, Coord{0, 0, 0}, Coord{7, 7, 7}}) voxels->request(other);
+  voxels->request(cell);
   SurfaceSamples among;
   voxels->gather(cell, among);
   ASSERT_EQ(among.count, alone.count);
