@@ -104,7 +104,8 @@ void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
   forEachLow(edges, [&](int i, int axis, int low) {
     if (noise.sigma[i] == 0) return;
     const float ratio = noise.sigma[i] / slopeAt(stencil, low, axis, hermite.t[i]);
-    noise.sigma[i] = std::min(stencilNoise(hermite.t[i]) * ratio, kMost);
+    const float sigma = stencilNoise(hermite.t[i]) * ratio;
+    noise.sigma[i] = sigma < kMost ? sigma : kMost;  // NaN beside values that are clamped or not finite.
   });
 }
 
