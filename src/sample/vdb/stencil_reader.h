@@ -113,13 +113,17 @@ class StencilReader {
     return places;
   }();
 
-  /// Scales the values that a slope may be made of, and makes the others NaN.
+  /// Scales the values that a slope may be made of, in the rows that were read, and makes the others NaN.
   void scaleKnown(float scale, DistanceStencil& stencil) const {
     withSimd(mLevel, [&stencil, scale, limits = mLimits] {
-      for (float& v : stencil.value) {
-        const float scaled = v * scale;
-        v = ((v > limits.low) & (v < limits.high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
-      }
+      for (int x = 0; x < DistanceStencil::kPoints; ++x)
+        for (unsigned rows = stencil.rows[x]; rows != 0; rows &= rows - 1) {
+          float* row = &stencil.value[(DistanceStencil::kPoints * x + std::countr_zero(rows)) * kLanes];
+          forEachLane([&](int lane) {
+            const float v = row[lane], scaled = v * scale;
+            row[lane] = ((v > limits.low) & (v < limits.high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
+          });
+        }
     });
   }
 
