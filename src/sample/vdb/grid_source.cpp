@@ -25,7 +25,17 @@ double background(const openvdb::GridBase& grid) {
   return value;
 }
 
-LatticeMap makeMap(const openvdb::math::Transform& transform) {
+/// The centre of what is active, in lattice units; the origin if nothing is.
+Vec3d centerOfData(const openvdb::GridBase& grid) {
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  if (box.empty()) return {};
+  Vec3d center;
+  for (int i = 0; i < 3; ++i) center[i] = 0.5 * (double{box.min()[i]} + double{box.max()[i]});
+  return center;
+}
+
+LatticeMap makeMap(const openvdb::GridBase& grid) {
+  const openvdb::math::Transform& transform = grid.transform();
   if (transform.isLinear()) {
     // OpenVDB multiplies row vectors from the left.
     const openvdb::Mat4d m = transform.baseMap()->getAffineMap()->getMat4();
@@ -49,7 +59,8 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
     }
     return columns.transposed();
   };
-  return LatticeMap(position, jacobian, {});
+  // The origin may lie outside of a frustum, or at its apex.
+  return LatticeMap(position, jacobian, centerOfData(grid));
 }
 
 /// A median slope this far from one belongs to something else than a distance: exact distances have at most 0.001, with
@@ -114,7 +125,7 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
   if (!sampler)
     throw Error(
         fmt::format("grid of type {} cannot be contoured; {} can", grid->valueType(), detail::contourableTypeNames()));
-  LatticeMap map = makeMap(grid->transform());
+  LatticeMap map = makeMap(*grid);
   const bool mayBeDistance = distance && (grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>());
   std::optional<detail::DistanceModel> distances = readDistances(options.hermite, mayBeDistance, *sampler, map);
   mImpl = std::make_unique<Impl>(
