@@ -7,12 +7,12 @@
 #include <chrono>
 #include <thread>
 
-#include "extract/wrapped_source.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/primitives.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/normal_noise.h"
 #include "pdc/sample/sampled_source.h"
+#include "sample/wrapped_source.h"
 
 namespace pdc {
 namespace {

@@ -13,6 +13,7 @@
 #include "io/vdb/vdb_file.h"
 #include "io/vdb/vdb_grid.h"
 #include "io/vdb/vdb_tree_check.h"
+#include "sample/vdb/contourable_grids.h"
 
 namespace pdc {
 namespace {
@@ -20,9 +21,6 @@ namespace {
 using detail::VdbEntry;
 using detail::VdbFile;
 using detail::VdbGridHead;
-
-using ContourableGrids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
-                                           openvdb::Int64Grid, openvdb::BoolGrid>;
 
 /// Runs `action` and puts the file's name before the message of every error.
 template <typename Action>
@@ -134,7 +132,7 @@ void describeVoxels(const openvdb::GridBase& grid, VdbGridInfo& info) {
   info.activeVoxels = grid.activeVoxelCount();
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   setBounds(info, box.empty() ? openvdb::Coord(1) : box.min(), box.empty() ? openvdb::Coord(0) : box.max());
-  grid.apply<ContourableGrids>([&](const auto& typed) {
+  detail::visitContourable(grid, [&](const auto& typed) {
     info.background = static_cast<double>(typed.background());
     const Range range = activeRange(typed.tree());
     if (range.lo > range.hi) return;
@@ -183,8 +181,8 @@ openvdb::GridBase::Ptr readVdbGrid(const std::filesystem::path& path, const std:
     VdbFile file(path);
     const VdbEntry& entry = findEntry(file, name);
     if (!detail::isKnownVdbTree(entry.type))
-      throw Error(fmt::format("grid \"{}\" of type {} cannot be contoured; float, double, int32, int64 and bool can",
-                              entry.shownName(), valueType(entry.type)));
+      throw Error(fmt::format("grid \"{}\" of type {} cannot be contoured; {} can", entry.shownName(),
+                              valueType(entry.type), detail::contourableTypeNames()));
     return detail::readGrid(path, file, entry);
   });
 }

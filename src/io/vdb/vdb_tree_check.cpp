@@ -13,6 +13,7 @@
 
 #include "io/file/byte_reader.h"
 #include "pdc/error.h"
+#include "sample/vdb/contourable_grids.h"
 
 namespace pdc::detail {
 namespace {
@@ -24,12 +25,13 @@ struct ValueSize {
 };
 
 std::optional<ValueSize> valueSize(const std::string& type) {
-  if (type == "Tree_float_5_4_3") return ValueSize{4, 2};
-  if (type == "Tree_double_5_4_3") return ValueSize{8, 2};
-  if (type == "Tree_int32_5_4_3") return ValueSize{4, 4};
-  if (type == "Tree_int64_5_4_3") return ValueSize{8, 8};
-  if (type == "Tree_bool_5_4_3") return ValueSize{1, 1};
-  return std::nullopt;
+  constexpr std::uint64_t kHalf = 2;
+  std::optional<ValueSize> size;
+  forEachContourableType([&]<typename GridT>(std::type_identity<GridT>) {
+    using ValueT = typename GridT::ValueType;
+    if (type == GridT::gridType()) size = {sizeof(ValueT), std::is_floating_point_v<ValueT> ? kHalf : sizeof(ValueT)};
+  });
+  return size;
 }
 
 constexpr std::uint64_t nodeValues(int log2Dim) { return std::uint64_t{1} << (3 * log2Dim); }

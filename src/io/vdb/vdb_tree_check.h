@@ -14,7 +14,7 @@ struct VdbTreeFormat {
   bool half = false;              ///< Whether real values are stored with 16 bits.
 };
 
-/// True for the trees that can be checked and contoured: float, double, int32, int64 and bool, 5_4_3.
+/// True for the trees that can be checked and contoured: those of ContourableGrids.
 [[nodiscard]] bool isKnownVdbTree(const std::string& type);
 
 /// Walks through the tree at the reader's position as OpenVDB's reader would, and leaves the position after it.

@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "math/lane_loops.h"
 #include "sample/cell_edges.h"
@@ -316,7 +319,14 @@ void findFeaturePlanes(const SampledBlock& block, const DistanceModel& model,
   UnevenPatches uneven;
   for (std::size_t i = 0; i < block.patches.size(); ++i)
     if (!even(block, block.patches[i])) uneven.add(i);
-  if (uneven.count != 0) PlaneFinder(block, model, read, planes).run(uneven);
+  if (uneven.count == 0) return;
+  // A finder is too large for a stack and too large to be made for each block. It is taken while it is used, so that a
+  // call from within `read` would make one of its own.
+  static thread_local std::unique_ptr<std::optional<PlaneFinder>> idle;
+  auto finder = std::exchange(idle, nullptr);
+  if (finder == nullptr) finder = std::make_unique<std::optional<PlaneFinder>>();
+  finder->emplace(block, model, read, planes).run(uneven);
+  idle = std::move(finder);
 }
 
 }  // namespace pdc::detail

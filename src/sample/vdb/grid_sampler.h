@@ -34,7 +34,7 @@ class GridSampler {
   virtual void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const = 0;
 };
 
-/// \returns null if the grid's type is not one of float, double, int32, int64, bool.
+/// \returns null if the grid's type is none of ContourableGrids.
 std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid, const GridReading& reading);
 
 }  // namespace pdc::detail

@@ -1,5 +1,6 @@
 #include "pdc/sample/vdb/grid_source.h"
 
+#include <fmt/format.h>
 #include <openvdb/openvdb.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "sample/creases/distance_planes.h"
 #include "sample/creases/distance_probe.h"
+#include "sample/vdb/contourable_grids.h"
 #include "sample/vdb/grid_sampler.h"
 #include "sample/vdb/noise_grids.h"
 
@@ -19,13 +21,21 @@ constexpr double kDensityIso = 0.5;
 
 double background(const openvdb::GridBase& grid) {
   double value = 0;
-  const auto read = [&](const auto& typed) { value = static_cast<double>(typed.background()); };
-  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
-                               openvdb::BoolGrid>>(read);
+  detail::visitContourable(grid, [&](const auto& typed) { value = static_cast<double>(typed.background()); });
   return value;
 }
 
-LatticeMap makeMap(const openvdb::math::Transform& transform) {
+/// The centre of what is active, in lattice units; the origin if nothing is.
+Vec3d centerOfData(const openvdb::GridBase& grid) {
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  if (box.empty()) return {};
+  Vec3d center;
+  for (int i = 0; i < 3; ++i) center[i] = 0.5 * (double{box.min()[i]} + double{box.max()[i]});
+  return center;
+}
+
+LatticeMap makeMap(const openvdb::GridBase& grid) {
+  const openvdb::math::Transform& transform = grid.transform();
   if (transform.isLinear()) {
     // OpenVDB multiplies row vectors from the left.
     const openvdb::Mat4d m = transform.baseMap()->getAffineMap()->getMat4();
@@ -49,7 +59,8 @@ LatticeMap makeMap(const openvdb::math::Transform& transform) {
     }
     return columns.transposed();
   };
-  return LatticeMap(position, jacobian, {});
+  // The origin may lie outside of a frustum, or at its apex.
+  return LatticeMap(position, jacobian, centerOfData(grid));
 }
 
 /// A median slope this far from one belongs to something else than a distance: exact distances have at most 0.001, with
@@ -112,8 +123,9 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
 
   auto sampler = detail::makeGridSampler(grid, reading);
   if (!sampler)
-    throw Error("grid of type " + grid->valueType() + " cannot be contoured; float, double, int32, int64 and bool can");
-  LatticeMap map = makeMap(grid->transform());
+    throw Error(
+        fmt::format("grid of type {} cannot be contoured; {} can", grid->valueType(), detail::contourableTypeNames()));
+  LatticeMap map = makeMap(*grid);
   const bool mayBeDistance = distance && (grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>());
   std::optional<detail::DistanceModel> distances = readDistances(options.hermite, mayBeDistance, *sampler, map);
   mImpl = std::make_unique<Impl>(

@@ -8,20 +8,19 @@
 #include <limits>
 
 #include "sample/creases/distance_stencil.h"
+#include "sample/vdb/contourable_grids.h"
 
 namespace pdc::detail {
 namespace {
 
 std::size_t countRefused(const openvdb::GridBase& grid) {
   std::size_t refused = 0;
-  const auto count = [&](const auto& typed) {
+  visitContourable(grid, [&](const auto& typed) {
     for (auto it = typed.cbeginValueOn(); it; ++it) {
       const auto v = static_cast<double>(*it);
       if (!(v >= 0 && std::isfinite(v))) ++refused;
     }
-  };
-  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
-                               openvdb::BoolGrid>>(count);
+  });
   return refused;
 }
 
@@ -80,8 +79,8 @@ std::unique_ptr<const GridSampler> NoiseGrids::open(const openvdb::GridBase::Con
   const GridReading plain{.acceptNonFinite = true, .clamp = std::numeric_limits<double>::infinity()};
   auto sampler = makeGridSampler(companion, plain);
   if (sampler == nullptr)
-    throw Error(fmt::format("the {} grid is of type {}; float, double, int32, int64 and bool can be used", name,
-                            companion->valueType()));
+    throw Error(
+        fmt::format("the {} grid is of type {}; {} can be used", name, companion->valueType(), contourableTypeNames()));
   mRefused += countRefused(*companion);
   return sampler;
 }
@@ -105,7 +104,8 @@ void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
   forEachLow(edges, [&](int i, int axis, int low) {
     if (noise.sigma[i] == 0) return;
     const float ratio = noise.sigma[i] / slopeAt(stencil, low, axis, hermite.t[i]);
-    noise.sigma[i] = std::min(stencilNoise(hermite.t[i]) * ratio, kMost);
+    const float sigma = stencilNoise(hermite.t[i]) * ratio;
+    noise.sigma[i] = sigma < kMost ? sigma : kMost;  // NaN beside values that are clamped or not finite.
   });
 }
 

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "extract/sign_source.h"
-#include "extract/wrapped_source.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/primitives.h"
 #include "pdc/sample/implicit/field_source.h"
+#include "sample/wrapped_source.h"
 
 namespace pdc {
 namespace {

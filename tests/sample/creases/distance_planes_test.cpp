@@ -1,14 +1,17 @@
 #include "sample/creases/distance_planes.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "sample/creases/crease_sheets.h"
 #include "sample/creases/gradient_jumps.h"
 #include "sample/creases/voxel_planes.h"
+#include "sample/patch_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -39,6 +42,68 @@ DistanceStencil stencil(const std::function<double(const Vec3d&)>& distance) {
       for (int z = -3; z <= 11; ++z)
         w.value[DistanceStencil::index(x, y, z)] = static_cast<float>(distance({double(x), double(y), double(z)}));
   return w;
+}
+
+/// A block with the crossings and patches of a wedge, a patch per cell that changes sign.
+struct WedgeBlock {
+  WedgeBlock() {
+    for (int x = 0; x < kBlockPoints; ++x)
+      for (int y = 0; y < kBlockPoints; ++y)
+        for (int z = 0; z < kBlockPoints; ++z)
+          if (distances.value[DistanceStencil::index(x, y, z)] < 0)
+            signs.row[kBlockPoints * x + y] |= static_cast<std::uint16_t>(1U << z);
+    edges = std::make_unique<EdgeIndex>(signs);
+    edges->forEach([&](int i, int axis, int x, int y, int z) {
+      const float* p = &distances.value[DistanceStencil::index(x, y, z)];
+      hermite.t[i] = p[0] / (p[0] - p[DistanceStencil::kStep[axis]]);
+      Vec3d n;
+      for (int k = 0; k < 3; ++k) n[k] = double{p[DistanceStencil::kStep[k]]} - p[-DistanceStencil::kStep[k]];
+      n = unit(n);
+      hermite.nx[i] = static_cast<float>(n.x);
+      hermite.ny[i] = static_cast<float>(n.y);
+      hermite.nz[i] = static_cast<float>(n.z);
+    });
+    for (int x = 0; x < kBlockSize; ++x)
+      for (int y = 0; y < kBlockSize; ++y)
+        for (int z = 0; z < kBlockSize; ++z) addPatch(x, y, z);
+  }
+
+  void addPatch(int x, int y, int z) {
+    const int code = cellCode(signs, x, y, z);
+    std::uint16_t crossed = 0;
+    for (int e = 0; e < 12; ++e)
+      if ((code >> kCellEdge[e].low & 1) != (code >> kCellEdge[e].high & 1))
+        crossed |= static_cast<std::uint16_t>(1U << e);
+    if (crossed != 0) patches.push_back({static_cast<std::uint16_t>(64 * x + 8 * y + z), crossed});
+  }
+
+  [[nodiscard]] FeaturePlanes find() const {
+    FeaturePlanes planes;
+    findFeaturePlanes(
+        {signs, *edges, hermite, patches}, {}, [this](DistanceStencil& to) { to.value = distances.value; }, planes);
+    return planes;
+  }
+
+  const DistanceStencil distances = stencil(wedge);
+  BlockSigns signs;
+  std::unique_ptr<EdgeIndex> edges;
+  HermiteBlock hermite{};
+  std::vector<SurfacePatch> patches;
+};
+
+/// Runs on a thread of its own with a stack of 128 kB, which is what some C libraries give to threads.
+void runOnSmallStack(std::function<void()> run) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, 128 << 10), 0);
+  pthread_t thread{};
+  const auto start = [](void* f) -> void* {
+    (*static_cast<std::function<void()>*>(f))();
+    return nullptr;
+  };
+  ASSERT_EQ(pthread_create(&thread, &attributes, start, &run), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
 }
 
 double degrees(const Vec3f& a, const Vec3d& b) {
@@ -178,6 +243,22 @@ TEST(GradientJumps, DoNotDependOnTheProcessor) {
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 8; ++z) EXPECT_EQ(best.noneAt({x, y, z}), baseline.noneAt({x, y, z}));
+}
+
+TEST(DistancePlanes, AnEdgesPatchesHaveThePlanesOfItsSides) {
+  const auto block = std::make_unique<WedgeBlock>();
+  const FeaturePlanes planes = block->find();
+  int both = 0;
+  for (const FeaturePlanes::Patch& patch : planes.patches) both += patch.count == 2;
+  EXPECT_GT(both, 3);
+}
+
+TEST(DistancePlanes, NeedNoLargeStack) {
+  const auto block = std::make_unique<WedgeBlock>();
+  std::size_t found = 0;
+  runOnSmallStack([&] { found = block->find().patches.size(); });
+  EXPECT_EQ(found, block->find().patches.size());
+  EXPECT_GT(found, 3u);
 }
 
 }  // namespace

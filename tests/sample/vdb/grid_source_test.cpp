@@ -300,6 +300,20 @@ TEST_F(GridSourceTest, FrustumsAreFollowed) {
   EXPECT_NEAR(r.volume / (indexVolume * jacobian / n), 1, 0.02);
 }
 
+TEST_F(GridSourceTest, AFrustumsVoxelIsMeasuredAtTheCentreOfTheData) {
+  // The lines of sight meet at the origin of the lattice, where voxels have no volume.
+  const auto transform = openvdb::math::Transform::createFrustumTransform(
+      openvdb::BBoxd(openvdb::Vec3d(0, 0, 20), openvdb::Vec3d(40, 40, 40)), 0.5, 2.0, 1.0);
+  const auto grid = cubeGrid<FloatGrid>(22, 36, 1.0F, [](int x, int y, int z) {
+    return static_cast<float>(length(Vec3d{x - 28.9, y - 28.9, z - 28.9}) - 5);
+  });
+  grid->setTransform(transform);
+  const GridSource source(grid);
+  const double volume = std::abs(source.map().jacobian({29, 29, 29}).determinant());
+  EXPECT_NEAR(source.map().voxelSize() / std::cbrt(volume), 1, 1e-9);
+  expectClosedSolid(analyze(contour(source)), 2);
+}
+
 TEST_F(GridSourceTest, NonFiniteVoxelsAreNamedOrAccepted) {
   auto grid = sphere(10, openvdb::Vec3f(0));
   grid->tree().setValueOn(openvdb::Coord(9, 0, 0), std::numeric_limits<float>::quiet_NaN());

@@ -21,7 +21,7 @@ constexpr float kVoxel = 0.1F;
 
 FloatGrid::Ptr sphere() { return openvdb::tools::createLevelSetSphere<FloatGrid>(1.5F, {0, 0, 0}, kVoxel); }
 
-/// With the sphere's transform and active voxels.
+/// A grid of one value with another grid's transform and active voxels.
 FloatGrid::Ptr companion(const FloatGrid& grid, float value) {
   auto out = FloatGrid::create(value);
   out->setTransform(grid.transform().copy());
@@ -29,25 +29,25 @@ FloatGrid::Ptr companion(const FloatGrid& grid, float value) {
   return out;
 }
 
+/// Calls visit(noise, hermite, edges) for each block; there is at least one.
+template <typename Visit>
+void forEachBlock(const GridSource& source, Visit&& visit) {
+  const SurfaceBlocks blocks = source.surfaceBlocks({});
+  const auto hermite = std::make_unique<HermiteBlock>();
+  const auto noise = std::make_unique<PlaneNoise>();
+  ASSERT_FALSE(blocks.coords.empty());
+  for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
+    const EdgeIndex edges(blocks.signs[i]);
+    const SurfaceBlock block{blocks.coords[i], blocks.signs[i], edges};
+    source.fillHermite(block, *hermite);
+    source.fillNoise(block, *hermite, *noise);
+    visit(*noise, *hermite, edges);
+  }
+}
+
 class NoiseGridsTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { openvdb::initialize(); }
-
-  /// Calls visit(noise, hermite, edges) for each block.
-  template <typename Visit>
-  static void forEachBlock(const GridSource& source, Visit&& visit) {
-    const SurfaceBlocks blocks = source.surfaceBlocks({});
-    const auto hermite = std::make_unique<HermiteBlock>();
-    const auto noise = std::make_unique<PlaneNoise>();
-    ASSERT_FALSE(blocks.coords.empty());
-    for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
-      const EdgeIndex edges(blocks.signs[i]);
-      const SurfaceBlock block{blocks.coords[i], blocks.signs[i], edges};
-      source.fillHermite(block, *hermite);
-      source.fillNoise(block, *hermite, *noise);
-      visit(*noise, *hermite, edges);
-    }
-  }
 
   const FloatGrid::Ptr mGrid = sphere();
 };
@@ -57,7 +57,7 @@ TEST_F(NoiseGridsTest, WithoutGridsNothingIsKnown) {
   EXPECT_EQ(source.knowledge().noise, Noise::kNone);
 }
 
-// Of a distance, whose gradient has length one; the factor is that of differences, 0.91 to 1.
+// The gradient of a distance has length one; differences have 0.91 to 1 times the noise of values.
 TEST_F(NoiseGridsTest, SigmaIsPropagatedToNormals) {
   const GridSource source(mGrid, {.sigma = companion(*mGrid, 0.2F * kVoxel)});
   EXPECT_EQ(source.knowledge().noise, Noise::kSigma);
@@ -111,9 +111,42 @@ TEST_F(NoiseGridsTest, NegativeAndNonFiniteValuesCountAsZeroAndAreCounted) {
   // All crossings then count the same.
   const Mesh mesh = contour(source, {.placement = Placement::kFree}),
              plain = contour(GridSource(mGrid), {.placement = Placement::kFree});
+  ASSERT_FALSE(mesh.positions.empty());
   ASSERT_EQ(mesh.positions.size(), plain.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     ASSERT_LT(length(mesh.positions[i] - plain.positions[i]), 1e-4F * kVoxel);
+}
+
+/// Expects that all σn of a grid are numbers, and the largest that is used at more than `least` crossings.
+void expectLargestSigma(const GridSource& source, std::size_t least) {
+  std::size_t largest = 0;
+  forEachBlock(source, [&](const PlaneNoise& noise, const HermiteBlock&, const EdgeIndex& edges) {
+    for (int i = 0; i < edges.size(); ++i) {
+      ASSERT_TRUE(noise.sigma[i] >= 0 && noise.sigma[i] <= 10) << noise.sigma[i];
+      largest += noise.sigma[i] == 10;
+    }
+  });
+  EXPECT_GE(largest, least);
+}
+
+TEST_F(NoiseGridsTest, SigmaIsFiniteBesideClampedValues) {
+  const auto one = FloatGrid::create(1);
+  one->setGridClass(openvdb::GRID_LEVEL_SET);
+  one->tree().setValueOn({0, 0, 0}, -0.5F);
+  const GridSource source(one, {.sigma = companion(*one, 0.2F)});
+  expectLargestSigma(source, 6);
+  for (const Placement placement : {Placement::kFree, Placement::kCell}) {
+    const Mesh mesh = contour(source, {.placement = placement, .confidence = true});
+    ASSERT_FALSE(mesh.confidence.empty());
+    for (const float c : mesh.confidence) ASSERT_TRUE(std::isfinite(c)) << c;
+  }
+}
+
+TEST_F(NoiseGridsTest, SigmaIsFiniteBesideValuesThatAreNot) {
+  const auto sigma = companion(*mGrid, 0.2F * kVoxel);
+  for (auto it = mGrid->beginValueOn(); it; ++it)
+    if (*it > 0 && it.getCoord().x() > 0) it.setValue(std::numeric_limits<float>::infinity());
+  expectLargestSigma(GridSource(mGrid, {.acceptNonFinite = true, .sigma = sigma}), 100);
 }
 
 TEST_F(NoiseGridsTest, WhatDoesNotFitIsRefused) {
@@ -132,6 +165,7 @@ TEST_F(NoiseGridsTest, TheSameSigmaForAllIsSigmaNormal) {
                            {.sigmaNormal = 0, .placement = Placement::kFree}),
              assumed = contour(GridSource(mGrid, {.hermite = HermiteMode::kGradient}),
                                {.sigmaNormal = 0.19, .placement = Placement::kFree});
+  ASSERT_FALSE(own.positions.empty());
   ASSERT_EQ(own.positions.size(), assumed.positions.size());
   for (std::size_t i = 0; i < own.positions.size(); ++i)
     ASSERT_LT(length(own.positions[i] - assumed.positions[i]), 0.1F * kVoxel);
@@ -146,6 +180,8 @@ TEST_F(NoiseGridsTest, BothWaysOfSolvingAgree) {
   const GridSource source(mGrid, {.sigma = sigma, .weight = weight});
   const Mesh lanes = contour(source, {.sigmaNormal = 0.01, .placement = Placement::kFree}),
              alone = contour(source, {.sigmaNormal = 0.0099999, .placement = Placement::kFree});
+  ASSERT_FALSE(lanes.positions.empty());
+  ASSERT_EQ(lanes.positions.size(), alone.positions.size());
   for (std::size_t i = 0; i < lanes.positions.size(); ++i)
     ASSERT_LT(length(lanes.positions[i] - alone.positions[i]), 2e-4F * kVoxel) << i;
 }

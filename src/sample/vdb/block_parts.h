@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "pdc/sample/hermite_block.h"
+#include "sample/vdb/leaf_signs.h"
+
+/// A block's 9×9×9 points lie in eight places, each a leaf or a tile: part 4dx + 2dy + dz is the place at block +
+/// (dx, dy, dz). The masks below hold a place's 8×8×8 points, bits as in CellMask.
+namespace pdc::detail {
+
+inline constexpr int kBlockParts = 8;
+
+/// Where those points of a part lie that are corners of the block's cells.
+inline Side sideOfCorners(const CellMask& inside, int part) {
+  const std::uint64_t rows =
+      ((part & 2) != 0 ? 0xFF : ~std::uint64_t{0}) & ((part & 1) != 0 ? 0x0101010101010101 : ~std::uint64_t{0});
+  std::uint64_t any = inside.word[0] & rows, all = inside.word[0] & rows;
+  for (int x = 1; x < ((part & 4) != 0 ? 1 : kBlockSize); ++x) {
+    any |= inside.word[x] & rows;
+    all &= inside.word[x] & rows;
+  }
+  return any == 0 ? Side::kOutside : all == rows ? Side::kInside : Side::kBoth;
+}
+
+/// Joins the masks of all parts into the rows of BlockSigns.
+inline void joinParts(const std::array<CellMask, kBlockParts>& part,
+                      std::array<std::uint16_t, kBlockPoints * kBlockPoints>& row) {
+  using Bytes = std::array<std::uint8_t, kBlockSize>;
+  for (int x = 0; x < kBlockPoints; ++x) {
+    const int i = (x >> 3) << 2;
+    std::uint16_t* to = &row[kBlockPoints * x];
+    const auto low = std::bit_cast<Bytes>(part[i].word[x & 7]), high = std::bit_cast<Bytes>(part[i | 1].word[x & 7]);
+    for (int y = 0; y < kBlockSize; ++y) to[y] = static_cast<std::uint16_t>(low[y] | (high[y] & 1) << 8);
+    to[kBlockSize] = static_cast<std::uint16_t>((part[i | 2].word[x & 7] & 0xFF) | (part[i | 3].word[x & 7] & 1) << 8);
+  }
+}
+
+/// The cells whose eight corners are all among a block's points that are set.
+inline CellMask cellsWithAllCorners(const std::array<std::uint16_t, kBlockPoints * kBlockPoints>& points) {
+  CellMask cells;
+  for (int x = 0; x < kBlockSize; ++x)
+    for (int y = 0; y < kBlockSize; ++y) {
+      const auto row = [&](int dx, int dy) { return unsigned{points[kBlockPoints * (x + dx) + y + dy]}; };
+      const unsigned all = row(0, 0) & row(0, 1) & row(1, 0) & row(1, 1);
+      cells.word[x] |= std::uint64_t{all & all >> 1 & 0xFF} << 8 * y;
+    }
+  return cells;
+}
+
+}  // namespace pdc::detail
