@@ -6,6 +6,7 @@
 #include "extract/certify/near_faces.h"
 #include "extract/certify/remedies.h"
 #include "extract/certify/restore_creases.h"
+#include "extract/certify/round_progress.h"
 #include "extract/certify/sort_unique.h"
 #include "extract/certify/working_mesh.h"
 
@@ -35,17 +36,15 @@ std::vector<EdgeRef> resolve(WorkingMesh& mesh, const NearFaces& near, std::vect
 }  // namespace
 
 CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& mesh, const Monitor& monitor) {
-  WorkingMesh working(surface, suspects.vertices, mesh);
+  RoundProgress progress(monitor, "certify");
+  WorkingMesh working(surface, suspects.vertices, mesh, monitor);
   working.chooseSafeDiagonals(suspects.quads);
   std::vector<std::size_t> all(suspects.vertices.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<EdgeRef> active = working.quadsAt(all);
-  NearFaces near(working.faces(), active);
+  NearFaces near(working.faces(), active, progress);
   std::vector<EdgeRef> unresolved;
-  while (!active.empty()) {
-    monitor.throwIfStopped();
-    active = resolve(working, near, near.findConflicts(active), unresolved);
-  }
+  while (!active.empty()) active = resolve(working, near, near.findConflicts(active), unresolved);
   for (int pass = 0; pass < kRestorePasses; ++pass) restoreCreases(working, near);
 
   CertifyCounts counts;
@@ -59,7 +58,8 @@ CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& me
     counts.drawnIn += safe;
     counts.shortened += !safe && v.place != v.wanted;
   }
-  counts.addedBoundaryEdges = working.fans().replaceQuads();
+  counts.addedBoundaryEdges = working.fans().replaceQuads(monitor);
+  progress.finish();
   return counts;
 }
 

@@ -74,14 +74,14 @@ struct Found {
   Vec3f place{};
 };
 
-Found findPlace(const NearFaces& near, const FaceTests& faces, const VertexState& vertex) {
+Found findPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
   const Mat3d M = faces.map().jacobian({});
   std::vector<Vec3f> places = placesAlong(vertex, M);
   addPlacesOffCrease(vertex, M, places);
   std::vector<Vec3f> world(places.size());
   std::transform(places.begin(), places.end(), world.begin(),
                  [&](const Vec3f& p) { return faces.worldPosition(vertex, p); });
-  VertexTrial trial(near, faces, vertex, world);
+  VertexTrial trial(locator, faces, vertex, world);
   Found best{trial.countConflicts(0, kMostConflicts + 1)};
   if (best.conflicts == vertex.unresolvedConflicts || best.conflicts > kMostConflicts) return best;
   for (std::size_t i = 1; i < places.size() && best.conflicts > 0; ++i) {
@@ -101,7 +101,7 @@ double distanceFromPlanes(const SuspectVertex& v, const Mat3d& M, const Vec3f& o
 }
 
 /// The place nearest to the planes of the vertex's crease where its faces have no conflict; its own if there is none.
-Vec3f findBetterPlace(const NearFaces& near, const FaceTests& faces, const VertexState& vertex) {
+Vec3f findBetterPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
   const Mat3d M = faces.map().jacobian({});
   SuspectVertex wanted = vertex;
   wanted.place = vertex.wanted;
@@ -118,7 +118,7 @@ Vec3f findBetterPlace(const NearFaces& near, const FaceTests& faces, const Verte
   std::vector<Vec3f> world;
   for (const auto& p : places) world.push_back(faces.worldPosition(vertex, p.second));
   world.push_back(faces.worldPosition(vertex, vertex.place));
-  VertexTrial trial(near, faces, vertex, world);
+  VertexTrial trial(locator, faces, vertex, world);
   for (std::size_t i = 0; i < places.size(); ++i)
     if (trial.finds(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
   return vertex.place;
@@ -140,13 +140,15 @@ struct Candidate {
 
 std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector<Conflict>& conflicts) {
   std::vector<Candidate> candidates;
-  for (std::size_t c = 0; c < conflicts.size(); ++c)
+  for (std::size_t c = 0; c < conflicts.size(); ++c) {
+    mesh.monitor().throwIfStopped();
     forEachCorner(conflicts[c], [&](std::uint32_t corner) {
       const std::ptrdiff_t i = mesh.movable(corner);
       if (i < 0) return;
       const VertexState& v = mesh.vertices()[static_cast<std::size_t>(i)];
       if (v.creaseMoves < kMostMoves && isSharp(v)) candidates.push_back({c, static_cast<std::size_t>(i)});
     });
+  }
   return candidates;
 }
 
@@ -160,8 +162,10 @@ std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near
   for (const Candidate& c : candidates) vertices.push_back(c.vertex);
   sortUnique(vertices);
   std::vector<Found> found(vertices.size());
-  tbb::parallel_for(std::size_t{0}, found.size(),
-                    [&](std::size_t k) { found[k] = findPlace(near, mesh.faces(), mesh.vertices()[vertices[k]]); });
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+    mesh.monitor().throwIfStopped();
+    found[k] = findPlace(near.locator(), mesh.faces(), mesh.vertices()[vertices[k]]);
+  });
 
   // Of the vertices of a conflict only the best may move.
   const auto indexOf = [&](const Candidate& c) {
@@ -194,9 +198,10 @@ std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, const NearFace
     if (mesh.vertices()[i].place != mesh.vertices()[i].wanted) displaced.push_back(i);
   if (foldedByNoise(mesh, displaced.size())) return {};
   return gather<VertexMove>(displaced.size(), [&](std::size_t i, std::vector<VertexMove>& out) {
+    mesh.monitor().throwIfStopped();
     const VertexState& vertex = mesh.vertices()[displaced[i]];
     if (!isSharp(vertex)) return;
-    const Vec3f place = findBetterPlace(near, mesh.faces(), vertex);
+    const Vec3f place = findBetterPlace(near.locator(), mesh.faces(), vertex);
     if (place != vertex.place) out.push_back({displaced[i], place});
   });
 }

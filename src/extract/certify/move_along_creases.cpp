@@ -20,6 +20,7 @@ std::vector<EdgeRef> moveAlongCreases(WorkingMesh& mesh, const NearFaces& near, 
     for (const std::uint32_t v : mesh.edgeCells().vertices(e)) corners.push_back(v);
   sortUnique(corners);
   std::erase_if(conflicts, [&](const Conflict& c) {
+    mesh.monitor().throwIfStopped();
     bool waits = false;
     forEachCorner(c, [&](std::uint32_t v) { waits = waits || std::binary_search(corners.begin(), corners.end(), v); });
     if (waits) changed.insert(changed.end(), {c.edge0, c.edge1});

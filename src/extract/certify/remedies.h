@@ -10,6 +10,7 @@ namespace pdc::detail {
 /// Changes the mesh where that may resolve conflicts, and takes the conflicts it acts on out of the list.
 /// \param conflicts sorted, as they are in `mesh` before any remedy of the round.
 /// \returns the faces to be tested again: those that changed, and those whose conflicts wait for what that brought.
+/// \throws Cancelled.
 using Remedy = std::vector<EdgeRef>(WorkingMesh& mesh, const NearFaces& near, std::vector<Conflict>& conflicts);
 
 /// Gives quads their other diagonal where that leaves them without conflict, each once at most. Must come first in a

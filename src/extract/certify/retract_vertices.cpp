@@ -8,6 +8,7 @@ namespace pdc::detail {
 std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, const NearFaces&, std::vector<Conflict>& conflicts) {
   std::vector<std::size_t> vertices;
   std::erase_if(conflicts, [&](const Conflict& c) {
+    mesh.monitor().throwIfStopped();
     const std::size_t before = vertices.size();
     forEachCorner(c, [&](std::uint32_t v) {
       if (const std::ptrdiff_t i = mesh.movable(v); i >= 0) vertices.push_back(static_cast<std::size_t>(i));

@@ -28,8 +28,10 @@ bool splitCells(WorkingMesh& mesh, const Conflict& c, std::vector<EdgeRef>& chan
 
 std::vector<EdgeRef> subdivideFaces(WorkingMesh& mesh, const NearFaces&, std::vector<Conflict>& conflicts) {
   std::vector<EdgeRef> changed;
-  std::erase_if(conflicts,
-                [&](const Conflict& c) { return replaceByFans(mesh, c, changed) || splitCells(mesh, c, changed); });
+  std::erase_if(conflicts, [&](const Conflict& c) {
+    mesh.monitor().throwIfStopped();
+    return replaceByFans(mesh, c, changed) || splitCells(mesh, c, changed);
+  });
   return changed;
 }
 

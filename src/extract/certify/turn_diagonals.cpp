@@ -8,9 +8,11 @@ namespace pdc::detail {
 
 std::vector<EdgeRef> turnDiagonals(WorkingMesh& mesh, const NearFaces& near, std::vector<Conflict>& conflicts) {
   std::vector<EdgeRef> edges;
-  for (const Conflict& c : conflicts)
+  for (const Conflict& c : conflicts) {
+    mesh.monitor().throwIfStopped();
     for (const EdgeRef& e : {c.edge0, c.edge1})
       if (!mesh.fans().has(mesh.edgeCells().face(e)) && !mesh.turnedBefore(e)) edges.push_back(e);
+  }
   sortUnique(edges);
   // Where no vertex may move any more, the diagonal has been chosen for good.
   std::erase_if(edges, [&mesh](const EdgeRef& e) { return mesh.fixed(e); });

@@ -18,12 +18,14 @@ Quad otherDiagonal(const Quad& q) { return {q[1], q[2], q[3], q[0]}; }
 
 }  // namespace
 
-WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex>& suspects, Mesh& mesh)
+WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex>& suspects, Mesh& mesh,
+                         const Monitor& monitor)
     : mEdgeCells(surface.blocks, surface.topology),
       mFans(surface.source, surface.blocks, mEdgeCells, mesh),
       mVertices(suspects.begin(), suspects.end()),
       mFaces(surface.source.map(), mEdgeCells, mFans, SuspectIndex(suspects), mVertices, mesh),
-      mMesh(mesh) {}
+      mMesh(mesh),
+      mMonitor(monitor) {}
 
 bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} == kShare.size(); }
 
@@ -51,6 +53,7 @@ void WorkingMesh::restartAt(std::size_t i, const Vec3f& place) {
 
 std::vector<EdgeRef> WorkingMesh::quadsAt(std::span<const std::size_t> vertices) const {
   std::vector<EdgeRef> quads = gather<EdgeRef>(vertices.size(), [&](std::size_t i, std::vector<EdgeRef>& out) {
+    mMonitor.throwIfStopped();
     mEdgeCells.forEachEdgeAt(mVertices[vertices[i]], [&](const EdgeRef& e) { out.push_back(e); });
   });
   sortUnique(quads);
@@ -76,6 +79,7 @@ bool WorkingMesh::turnedBefore(const EdgeRef& e) const { return std::binary_sear
 void WorkingMesh::chooseSafeDiagonals(const std::vector<EdgeRef>& edges) {
   std::atomic<std::size_t> turns{0};
   const std::vector<EdgeRef> fans = gather<EdgeRef>(edges.size(), [&](std::size_t i, std::vector<EdgeRef>& out) {
+    mMonitor.throwIfStopped();
     const EdgeRef& e = edges[i];
     const std::uint64_t face = mEdgeCells.face(e);
     if (mFans.has(face) || !fixed(e)) return;
@@ -86,7 +90,10 @@ void WorkingMesh::chooseSafeDiagonals(const std::vector<EdgeRef>& edges) {
     quad = other;
     turns.fetch_add(1, std::memory_order_relaxed);
   });
-  for (const EdgeRef& e : fans) mFans.add(e);
+  for (const EdgeRef& e : fans) {
+    mMonitor.throwIfStopped();
+    mFans.add(e);
+  }
   mTurnCount += turns;
 }
 

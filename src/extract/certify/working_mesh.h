@@ -10,6 +10,7 @@
 #include "extract/certify/vertex_state.h"
 #include "extract/topology/edge_cells.h"
 #include "extract/topology/surface.h"
+#include "pdc/monitor.h"
 
 namespace pdc::detail {
 
@@ -17,11 +18,13 @@ namespace pdc::detail {
 /// them, and its fans.
 class WorkingMesh {
  public:
-  /// \param suspects by ascending vertex. \param mesh in quads only; must outlive this.
-  WorkingMesh(const Surface& surface, const std::vector<SuspectVertex>& suspects, Mesh& mesh);
+  /// \param suspects by ascending vertex. \param mesh in quads only; must outlive this, as `monitor` must.
+  WorkingMesh(const Surface& surface, const std::vector<SuspectVertex>& suspects, Mesh& mesh, const Monitor& monitor);
   WorkingMesh(const WorkingMesh&) = delete;
   WorkingMesh& operator=(const WorkingMesh&) = delete;
 
+  /// Where those who work on the mesh notice that they should stop.
+  [[nodiscard]] const Monitor& monitor() const { return mMonitor; }
   [[nodiscard]] const EdgeCells& edgeCells() const { return mEdgeCells; }
   [[nodiscard]] const FaceTests& faces() const { return mFaces; }
   [[nodiscard]] Fans& fans() { return mFans; }
@@ -41,7 +44,7 @@ class WorkingMesh {
   /// Has suspect vertex i retracted from another place from now on, where it is moved.
   void restartAt(std::size_t i, const Vec3f& place);
 
-  /// The quads at suspect vertices of these numbers, sorted.
+  /// The quads at suspect vertices of these numbers, sorted. Runs in parallel. \throws Cancelled.
   [[nodiscard]] std::vector<EdgeRef> quadsAt(std::span<const std::size_t> vertices) const;
   /// Whether no vertex of the edge's quad may still be moved.
   [[nodiscard]] bool fixed(const EdgeRef& e) const;
@@ -52,7 +55,7 @@ class WorkingMesh {
   /// Whether turn() has had the edge.
   [[nodiscard]] bool turnedBefore(const EdgeRef& e) const;
   /// Gives each of these quads that is fixed a diagonal both of whose triangles the lattice edge passes in the right
-  /// direction, or makes it a fan. Runs in parallel.
+  /// direction, or makes it a fan. Runs in parallel. \throws Cancelled.
   void chooseSafeDiagonals(const std::vector<EdgeRef>& edges);
   /// How often quads got their other diagonals.
   [[nodiscard]] std::size_t turnCount() const { return mTurnCount; }
@@ -63,6 +66,7 @@ class WorkingMesh {
   std::vector<VertexState> mVertices;
   FaceTests mFaces;
   Mesh& mMesh;
+  const Monitor& mMonitor;
   std::vector<EdgeRef> mTurned;  ///< What turn() has had, sorted.
   std::size_t mTurnCount = 0;
 };
