@@ -20,7 +20,9 @@ class VertexTrial {
 
   /// Whether the tests of other faces would find those of the vertex at one of the places.
   [[nodiscard]] bool finds(std::size_t place) const;
-  /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`.
+  /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`. A face with a
+  /// triangle that faces backwards counts as one; what else that triangle meets counts or not, by the order of faces,
+  /// which earlier counts change.
   [[nodiscard]] std::size_t countConflicts(std::size_t place, std::size_t most);
 
  private:
