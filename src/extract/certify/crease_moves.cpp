@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "extract/certify/sort_unique.h"
 #include "extract/certify/vertex_trial.h"
 #include "parallel/gather.h"
 
@@ -26,6 +27,13 @@ constexpr std::array<float, 8> kForward{0.99F, 0.97F, 0.95F, 0.92F, 0.88F, 0.8F,
 constexpr std::uint8_t kMostMoves = 3;
 /// Where faces meet more others than this, no single move helps.
 constexpr std::size_t kMostConflicts = 12;
+/// Where there are more conflicts, or vertices off their places, faces are folded by noise: no single move helps, and
+/// trying them takes long.
+constexpr std::size_t kFewConflicts = 200, kFacesPerConflict = 20;
+
+bool foldedByNoise(const WorkingMesh& mesh, std::size_t conflicts) {
+  return conflicts > std::max(kFewConflicts, mesh.mesh().quads.size() / kFacesPerConflict);
+}
 
 Vec3f scaledTo(const Vec3d& v, double wanted) {
   const double l = length(v);
@@ -46,9 +54,8 @@ std::vector<Vec3f> placesAlong(const SuspectVertex& v, const Mat3d& M) {
   return places;
 }
 
-/// Places to try for a vertex, the dearest last; its own first.
-std::vector<Vec3f> placesToTry(const SuspectVertex& v, const Mat3d& M) {
-  std::vector<Vec3f> places = placesAlong(v, M);
+/// Appends places away from the crease of a vertex, the dearest last.
+void addPlacesOffCrease(const SuspectVertex& v, const Mat3d& M, std::vector<Vec3f>& places) {
   const Vec3d way = vecCast<double>(v.safe - v.place);
   for (const float step : kWithin)
     for (const Vec3f& normal : v.creaseNormals) {
@@ -58,7 +65,6 @@ std::vector<Vec3f> placesToTry(const SuspectVertex& v, const Mat3d& M) {
       if (length(within) > double{step}) places.push_back(v.place + scaledTo(within, double{step}));
     }
   for (const float share : kStraight) places.push_back(v.safe + (v.place - v.safe) * share);
-  return places;
 }
 
 /// The best place found for a vertex.
@@ -68,14 +74,16 @@ struct Found {
   Vec3f place{};
 };
 
-Found findPlace(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex, std::size_t failedWith) {
-  const std::vector<Vec3f> places = placesToTry(vertex, tests.map().jacobian({}));
+Found findPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
+  const Mat3d M = faces.map().jacobian({});
+  std::vector<Vec3f> places = placesAlong(vertex, M);
+  addPlacesOffCrease(vertex, M, places);
   std::vector<Vec3f> world(places.size());
   std::transform(places.begin(), places.end(), world.begin(),
-                 [&](const Vec3f& p) { return tests.worldPosition(vertex, p); });
-  VertexTrial trial(near, tests, vertex, world);
+                 [&](const Vec3f& p) { return faces.worldPosition(vertex, p); });
+  VertexTrial trial(locator, faces, vertex, world);
   Found best{trial.countConflicts(0, kMostConflicts + 1)};
-  if (best.conflicts == failedWith || best.conflicts > kMostConflicts) return best;
+  if (best.conflicts == vertex.unresolvedConflicts || best.conflicts > kMostConflicts) return best;
   for (std::size_t i = 1; i < places.size() && best.conflicts > 0; ++i) {
     if (!trial.finds(i)) continue;
     const std::size_t conflicts = trial.countConflicts(i, best.conflicts);
@@ -93,23 +101,24 @@ double distanceFromPlanes(const SuspectVertex& v, const Mat3d& M, const Vec3f& o
 }
 
 /// The place nearest to the planes of the vertex's crease where its faces have no conflict; its own if there is none.
-Vec3f findBetterPlace(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
-                      const Vec3f& wantedPlace) {
-  const Mat3d M = tests.map().jacobian({});
+Vec3f findBetterPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
+  const Mat3d M = faces.map().jacobian({});
   SuspectVertex wanted = vertex;
-  wanted.place = wantedPlace;
-  std::vector<Vec3f> all = placesToTry(wanted, M);
-  for (const Vec3f& p : placesAlong(wanted, M))
+  wanted.place = vertex.wanted;
+  const std::vector<Vec3f> along = placesAlong(wanted, M);
+  std::vector<Vec3f> all = along;
+  addPlacesOffCrease(wanted, M, all);
+  for (const Vec3f& p : along)
     for (const float share : kForward) all.push_back(vertex.safe + (p - vertex.safe) * share);
-  const double now = distanceFromPlanes(vertex, M, wantedPlace, vertex.place);
+  const double now = distanceFromPlanes(vertex, M, vertex.wanted, vertex.place);
   std::vector<std::pair<double, Vec3f>> places;
   for (const Vec3f& p : all)
-    if (const double d = distanceFromPlanes(vertex, M, wantedPlace, p); d < now) places.emplace_back(d, p);
+    if (const double d = distanceFromPlanes(vertex, M, vertex.wanted, p); d < now) places.emplace_back(d, p);
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vec3f> world;
-  for (const auto& p : places) world.push_back(tests.worldPosition(vertex, p.second));
-  world.push_back(tests.worldPosition(vertex, vertex.place));
-  VertexTrial trial(near, tests, vertex, world);
+  for (const auto& p : places) world.push_back(faces.worldPosition(vertex, p.second));
+  world.push_back(faces.worldPosition(vertex, vertex.place));
+  VertexTrial trial(locator, faces, vertex, world);
   for (std::size_t i = 0; i < places.size(); ++i)
     if (trial.finds(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
   return vertex.place;
@@ -124,59 +133,76 @@ bool isSharp(const SuspectVertex& v) {
   return false;
 }
 
+/// A vertex of a conflict that may move.
+struct Candidate {
+  std::size_t conflict, vertex;  ///< Their numbers.
+};
+
+std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector<Conflict>& conflicts) {
+  std::vector<Candidate> candidates;
+  for (std::size_t c = 0; c < conflicts.size(); ++c) {
+    mesh.monitor().throwIfStopped();
+    forEachCorner(conflicts[c], [&](std::uint32_t corner) {
+      const std::ptrdiff_t i = mesh.movable(corner);
+      if (i < 0) return;
+      const VertexState& v = mesh.vertices()[static_cast<std::size_t>(i)];
+      if (v.creaseMoves < kMostMoves && isSharp(v)) candidates.push_back({c, static_cast<std::size_t>(i)});
+    });
+  }
+  return candidates;
+}
+
 }  // namespace
 
-std::vector<CreaseMove> CreaseMoves::find(const NearFaces& near, const std::vector<Conflict>& conflicts,
-                                          const std::function<std::ptrdiff_t(std::uint32_t)>& movable) {
-  if (!mTests.map().affine()) return {};
-  // By conflict, the vertices that may move, and all of them.
-  std::vector<std::pair<std::size_t, std::size_t>> candidates;
-  for (std::size_t o = 0; o < conflicts.size(); ++o)
-    forEachCorner(conflicts[o], [&](std::uint32_t v) {
-      const std::ptrdiff_t i = movable(v);
-      if (i >= 0 && mMoves[i] < kMostMoves && isSharp(mSuspects[i]))
-        candidates.emplace_back(o, static_cast<std::size_t>(i));
-    });
+std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near,
+                                        const std::vector<Conflict>& conflicts) {
+  if (!mesh.faces().map().affine() || foldedByNoise(mesh, conflicts.size())) return {};
+  const std::vector<Candidate> candidates = findCandidates(mesh, conflicts);
   std::vector<std::size_t> vertices;
-  for (const auto& c : candidates) vertices.push_back(c.second);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const Candidate& c : candidates) vertices.push_back(c.vertex);
+  sortUnique(vertices);
   std::vector<Found> found(vertices.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
-    found[k] = findPlace(near, mTests, mSuspects[vertices[k]], mFailedWith[vertices[k]]);
+    mesh.monitor().throwIfStopped();
+    found[k] = findPlace(near.locator(), mesh.faces(), mesh.vertices()[vertices[k]]);
   });
 
-  // Of each conflict only the best of its vertices moves.
+  // Of the vertices of a conflict only the best may move.
+  const auto indexOf = [&](const Candidate& c) {
+    return static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), c.vertex) - vertices.begin());
+  };
   const auto rank = [&](std::size_t k) {
     return std::tuple(found[k].tried == 0, found[k].conflicts, found[k].tried, k);
   };
   std::vector<std::size_t> best(conflicts.size(), vertices.size());
-  for (auto& [o, vertex] : candidates) {
-    vertex = static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
-    if (best[o] == vertices.size() || rank(vertex) < rank(best[o])) best[o] = vertex;
+  for (const Candidate& c : candidates) {
+    const std::size_t k = indexOf(c);
+    if (best[c.conflict] == vertices.size() || rank(k) < rank(best[c.conflict])) best[c.conflict] = k;
   }
   std::vector<std::uint8_t> beaten(vertices.size());
-  for (const auto& [o, vertex] : candidates) beaten[vertex] |= best[o] != vertex;
-  std::vector<CreaseMove> moves;
+  for (const Candidate& c : candidates) beaten[indexOf(c)] |= best[c.conflict] != indexOf(c);
+  std::vector<VertexMove> moves;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if (found[k].tried == 0) {
-      mFailedWith[vertices[k]] = found[k].conflicts;
-    } else if (beaten[k] == 0) {
+    if (found[k].tried == 0)
+      mesh.vertices()[vertices[k]].unresolvedConflicts = found[k].conflicts;
+    else if (beaten[k] == 0)
       moves.push_back({vertices[k], found[k].place});
-      ++mMoves[vertices[k]];
-    }
   }
   return moves;
 }
 
-std::vector<CreaseMove> CreaseMoves::findBetter(const NearFaces& near, const std::vector<std::size_t>& vertices,
-                                                const std::vector<Vec3f>& wanted) const {
-  if (!mTests.map().affine()) return {};
-  return gather<CreaseMove>(vertices.size(), [&](std::size_t i, std::vector<CreaseMove>& out) {
-    const SuspectVertex& vertex = mSuspects[vertices[i]];
+std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, const NearFaces& near) {
+  if (!mesh.faces().map().affine()) return {};
+  std::vector<std::size_t> displaced;
+  for (std::size_t i = 0; i < mesh.vertices().size(); ++i)
+    if (mesh.vertices()[i].place != mesh.vertices()[i].wanted) displaced.push_back(i);
+  if (foldedByNoise(mesh, displaced.size())) return {};
+  return gather<VertexMove>(displaced.size(), [&](std::size_t i, std::vector<VertexMove>& out) {
+    mesh.monitor().throwIfStopped();
+    const VertexState& vertex = mesh.vertices()[displaced[i]];
     if (!isSharp(vertex)) return;
-    const Vec3f place = findBetterPlace(near, mTests, vertex, wanted[vertices[i]]);
-    if (place != vertex.place) out.push_back({vertices[i], place});
+    const Vec3f place = findBetterPlace(near.locator(), mesh.faces(), vertex);
+    if (place != vertex.place) out.push_back({displaced[i], place});
   });
 }
 

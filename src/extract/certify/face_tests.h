@@ -1,8 +1,10 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "extract/certify/fans.h"
+#include "extract/certify/vertex_state.h"
 #include "extract/topology/edge_cells.h"
 #include "mesh/triangle_pair.h"
 
@@ -11,9 +13,14 @@ namespace pdc::detail {
 /// What is asked of single faces, decided exactly on the mesh's coordinates.
 class FaceTests {
  public:
-  FaceTests(const LatticeMap& map, const EdgeCells& edgeCells, const Fans& fans,
-            const std::vector<SuspectVertex>& suspect, const Mesh& mesh)
-      : mMap(map), mEdgeCells(edgeCells), mFans(fans), mSuspects(suspect), mSuspectIndex(suspect), mMesh(mesh) {}
+  FaceTests(const LatticeMap& map, const EdgeCells& edgeCells, const Fans& fans, SuspectIndex suspectIndex,
+            const std::vector<VertexState>& suspects, const Mesh& mesh)
+      : mMap(map),
+        mEdgeCells(edgeCells),
+        mFans(fans),
+        mSuspectIndex(std::move(suspectIndex)),
+        mSuspects(suspects),
+        mMesh(mesh) {}
 
   /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
   [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
@@ -38,7 +45,7 @@ class FaceTests {
   /// \param place in lattice units from the centre of the vertex's cell.
   [[nodiscard]] Vec3f worldPosition(const SuspectVertex& v, const Vec3f& place) const;
   /// The suspect vertex of that number, or null.
-  [[nodiscard]] const SuspectVertex* suspect(std::uint32_t vertex) const {
+  [[nodiscard]] const VertexState* suspect(std::uint32_t vertex) const {
     const std::ptrdiff_t i = mSuspectIndex.find(vertex);
     return i < 0 ? nullptr : &mSuspects[static_cast<std::size_t>(i)];
   }
@@ -54,8 +61,8 @@ class FaceTests {
   const LatticeMap& mMap;
   const EdgeCells& mEdgeCells;
   const Fans& mFans;
-  const std::vector<SuspectVertex>& mSuspects;
   SuspectIndex mSuspectIndex;
+  const std::vector<VertexState>& mSuspects;
   const Mesh& mMesh;
 };
 

@@ -39,8 +39,13 @@ Vec3d Fans::crossing(const CellRef& c, int edge) {
   return p;
 }
 
+std::uint32_t Fans::numberAfter(std::uint64_t vertices) {
+  checkVertexCount(vertices + 1);
+  return static_cast<std::uint32_t>(vertices);
+}
+
 std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
-  const auto vertex = static_cast<std::uint32_t>(mMesh.positions.size());
+  const std::uint32_t vertex = numberAfter(mMesh.positions.size());
   mMesh.positions.push_back(vecCast<float>(mSource.map().position(position)));
   if (!mMesh.normals.empty()) {
     Vec3d sum{};
@@ -120,9 +125,10 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
   }
 }
 
-std::size_t Fans::replaceQuads() {
+std::size_t Fans::replaceQuads(const Monitor& monitor) {
   std::vector<std::uint64_t> faces;
   for (const auto& [edge, center] : mCenter) {
+    monitor.throwIfStopped();
     faces.push_back(mEdgeCells.face(edge));
     std::vector<Triangle> fan;
     triangles(edge, fan);
@@ -137,9 +143,11 @@ std::size_t Fans::replaceQuads() {
   // A face vertex lies in two triangles of each fan at its place; where there is one fan, it parts a boundary edge.
   std::map<std::uint32_t, int> uses;
   for (const auto& [joined, vertex] : mFaceVertex) uses.emplace(vertex, 0);
-  for (const Triangle& t : mMesh.triangles)
+  for (const Triangle& t : mMesh.triangles) {
+    monitor.throwIfStopped();
     for (const std::uint32_t v : t)
       if (const auto it = uses.find(v); it != uses.end()) ++it->second;
+  }
   return static_cast<std::size_t>(
       std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second == 2; }));
 }

@@ -25,18 +25,21 @@ class Fans {
   [[nodiscard]] bool has(std::uint64_t face) const { return (mIsFan[face / 64] >> face % 64 & 1) != 0; }
   [[nodiscard]] std::size_t size() const { return mCenter.size(); }
 
-  /// Makes a fan of the edge's quad; appends its vertex to the mesh.
+  /// Makes a fan of the edge's quad; appends its vertex to the mesh. \throws Error if the mesh has 2^32 vertices.
   void add(const EdgeRef& e);
   /// Splits the cell and makes fans of all quads at its edges, which it appends to `changed`. \returns false if it has
-  /// been split before.
+  /// been split before. \throws Error if the mesh would get more than 2^32 vertices.
   bool split(const CellRef& c, std::vector<EdgeRef>& changed);
 
   /// Appends the triangles of a fan, wound like its quad.
   void triangles(const EdgeRef& e, std::vector<Triangle>& out) const;
 
   /// Puts the triangles of all fans in the place of their quads. Quads from the end fill the gaps. \returns by how many
-  /// edges that lengthens the boundary of the mesh.
-  std::size_t replaceQuads();
+  /// edges that lengthens the boundary of the mesh. \throws Cancelled.
+  std::size_t replaceQuads(const Monitor& monitor);
+
+  /// The number of a vertex appended to so many. \throws Error if 32 bits cannot hold it.
+  [[nodiscard]] static std::uint32_t numberAfter(std::uint64_t vertices);
 
  private:
   struct Crossings;

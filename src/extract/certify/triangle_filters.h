@@ -1,11 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 
-#include "math/float4.h"
+#include "extract/certify/float4_box.h"
 #include "mesh/triangle_pair.h"
 
 namespace pdc::detail {
@@ -102,41 +101,6 @@ class TrianglePlane {
   double mErrorBound;
 };
 
-/// A box in world space.
-struct Box {
-  Float4 low, high;
-
-  Box() = default;
-  template <std::size_t n>
-  explicit Box(const std::array<Vec3f, n>& corners) : low(float4(corners[0])), high(low) {
-    for (std::size_t i = 1; i < n; ++i) add(float4(corners[i]));
-  }
-  void add(Float4 p) {
-    low = p < low ? p : low;
-    high = p > high ? p : high;
-  }
-  void add(const Box& b) {
-    add(b.low);
-    add(b.high);
-  }
-  /// Takes in what rounding may have put beyond it.
-  void addRounding() {
-    constexpr float kTwoUlps = 2.5e-7F;
-    low -= (low < 0.0F ? -low : low) * kTwoUlps;
-    high += (high < 0.0F ? -high : high) * kTwoUlps;
-  }
-  [[nodiscard]] bool contains(const Box& b) const { return !anyOf((b.low < low) | (b.high > high)); }
-  [[nodiscard]] bool apartFrom(const Box& b) const { return anyOf((low > b.high) | (b.low > high)); }
-
- private:
-  template <typename Mask>
-  static bool anyOf(Mask mask) {
-    using Halves = long long __attribute__((vector_size(16)));
-    const auto halves = reinterpret_cast<Halves>(mask);
-    return (halves[0] | halves[1]) != 0;
-  }
-};
-
 /// A triangle of a mesh with what the quick looks need to know of it.
 struct FilteredTriangle {
   FilteredTriangle(const Triangle& v, const TriangleCorners& c)
@@ -146,7 +110,7 @@ struct FilteredTriangle {
   TriangleCorners corners;
   Points points;
   TrianglePlane plane;
-  Box box;
+  Float4Box box;
 };
 
 /// trianglesIntersect() for those.

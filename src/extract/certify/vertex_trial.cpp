@@ -12,8 +12,8 @@ bool hasVertex(std::span<const std::uint32_t> vertices, std::uint32_t v) {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
 
-Box boxOf(std::span<const Vec3f> points) {
-  Box box(std::array<Vec3f, 1>{points[0]});
+Float4Box boxOf(std::span<const Vec3f> points) {
+  Float4Box box(std::array<Vec3f, 1>{points[0]});
   for (const Vec3f& p : points) box.add(float4(p));
   return box;
 }
@@ -28,14 +28,14 @@ std::array<std::uint8_t, 3> notAmong(const Triangle& others, const Triangle& cor
 
 }  // namespace
 
-VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
+VertexTrial::VertexTrial(const FaceLocator& locator, const FaceTests& faces, const SuspectVertex& vertex,
                          std::span<const Vec3f> places)
-    : mNearFaces(near), mTests(tests), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
-  const Box ofPlaces = boxOf(places);
-  Box all = ofPlaces;
-  tests.edgeCells().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
-    mReach.push_back({tests.edgeCells().lowEnd(e), near.farReach(e)});
-    all.add(Box(tests.corners(tests.edgeCells().vertices(e))));
+    : mLocator(locator), mFaces(faces), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
+  const Float4Box ofPlaces = boxOf(places);
+  Float4Box all = ofPlaces;
+  faces.edgeCells().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
+    mReach.push_back({faces.edgeCells().lowEnd(e), locator.farReach(e)});
+    all.add(Float4Box(faces.corners(faces.edgeCells().vertices(e))));
   });
   addFaces(all);
   findSheets();
@@ -45,16 +45,16 @@ VertexTrial::VertexTrial(const NearFaces& near, const FaceTests& tests, const Su
 }
 
 /// The faces that may reach into a box.
-void VertexTrial::addFaces(const Box& box) {
+void VertexTrial::addFaces(const Float4Box& box) {
   std::vector<EdgeRef> edges;
-  mNearFaces.facesAbout(box, edges);
+  mLocator.facesAbout(mLocator.latticeBox(box), edges);
   std::vector<Triangle> triangles;
   for (const EdgeRef& e : edges) {
-    const std::uint64_t face = mTests.edgeCells().face(e);
-    const Quad* quad = mTests.quad(face);
+    const std::uint64_t face = mFaces.edgeCells().face(e);
+    const Quad* quad = mFaces.quad(face);
     const bool own = quad != nullptr && hasVertex(*quad, mVertex);
-    if (quad != nullptr && !own && box.apartFrom(Box(mTests.corners(*quad)))) continue;
-    mTests.triangles(e, face, triangles);
+    if (quad != nullptr && !own && box.apartFrom(Float4Box(mFaces.corners(*quad)))) continue;
+    mFaces.triangles(e, face, triangles);
     if (own) {
       addOwn(e, triangles);
       continue;
@@ -63,15 +63,15 @@ void VertexTrial::addFaces(const Box& box) {
       if (hasVertex(t, mVertex))
         addOwn(e, {&t, 1});
       else
-        mFixed.emplace_back(t, mTests.corners(t));
+        mFixed.emplace_back(t, mFaces.corners(t));
     }
   }
 }
 
 void VertexTrial::addOwn(const EdgeRef& e, std::span<const Triangle> triangles) {
-  mPieces.push_back({mTests.forward(e), mOwn.size(), triangles.size()});
+  mPieces.push_back({mFaces.forward(e), mOwn.size(), triangles.size()});
   for (const Triangle& t : triangles) {
-    OwnTriangle& own = mOwn.emplace_back(OwnTriangle{{t, mTests.corners(t)}, -1, {}, 0, 0, {}, {}});
+    OwnTriangle& own = mOwn.emplace_back(OwnTriangle{{t, mFaces.corners(t)}, -1, {}, 0, 0, {}, {}});
     for (int k = 0; k < 3; ++k) {
       if (t[k] == mVertex) {
         own.moving = k;
@@ -95,7 +95,7 @@ void VertexTrial::findSheets() {
   };
   add(mPlaces.size(), [&](std::size_t i) { return mPlaces[i]; });
   const std::size_t ofPlaces = points.size();
-  const std::uint32_t firstRim = add(mRim.size(), [&](std::size_t i) { return mTests.position(mRim[i]); });
+  const std::uint32_t firstRim = add(mRim.size(), [&](std::size_t i) { return mFaces.position(mRim[i]); });
   for (OwnTriangle& own : mOwn)
     for (int k = 0; k < 3; ++k) own.point[k] += k == own.moving ? 0 : firstRim;
   mColumns = 4 * points.size();
@@ -111,8 +111,8 @@ void VertexTrial::findSheets() {
   });
 }
 
-void VertexTrial::addNear(OwnTriangle& own, const Box& places) {
-  Box box = own.box;
+void VertexTrial::addNear(OwnTriangle& own, const Float4Box& places) {
+  Float4Box box = own.box;
   if (own.moving >= 0) box.add(places);
   own.firstNear = mNear.size();
   for (std::size_t i = 0; i < mFixed.size(); ++i) {
@@ -139,9 +139,9 @@ inline void VertexTrial::move(const OwnPiece& piece, std::size_t place) {
 }
 
 bool VertexTrial::finds(std::size_t place) const {
-  const Vec3d p = mNearFaces.latticePosition(mPlaces[place]);
+  const Vec3d p = mLocator.latticePosition(mPlaces[place]);
   return std::all_of(mReach.begin(), mReach.end(),
-                     [&](const Reach& r) { return NearFaces::distance(r.low, p) <= r.most; });
+                     [&](const Reach& r) { return FaceLocator::distance(r.low, p) <= r.most; });
 }
 
 std::size_t VertexTrial::countConflicts(std::size_t place, std::size_t most) {
@@ -180,8 +180,8 @@ inline std::size_t VertexTrial::countPiece(std::size_t i, std::size_t most) {
 }
 
 inline bool VertexTrial::facesForward(const OwnPiece& piece, OwnTriangle& own) const {
-  if (own.moving >= 0) return mTests.facesForward(piece.forward, own.vertices, own.corners);
-  if (!own.forward) own.forward = mTests.facesForward(piece.forward, own.vertices, own.corners);
+  if (own.moving >= 0) return mFaces.facesForward(piece.forward, own.vertices, own.corners);
+  if (!own.forward) own.forward = mFaces.facesForward(piece.forward, own.vertices, own.corners);
   return *own.forward;
 }
 

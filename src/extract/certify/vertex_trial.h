@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "extract/certify/near_faces.h"
+#include "extract/certify/face_locator.h"
+#include "extract/certify/float4_box.h"
 #include "extract/certify/triangle_filters.h"
 
 namespace pdc::detail {
@@ -14,12 +15,14 @@ namespace pdc::detail {
 class VertexTrial {
  public:
   /// \param places in world space, the vertex's own among them; must outlive this.
-  VertexTrial(const NearFaces& near, const FaceTests& tests, const SuspectVertex& vertex,
+  VertexTrial(const FaceLocator& locator, const FaceTests& faces, const SuspectVertex& vertex,
               std::span<const Vec3f> places);
 
   /// Whether the tests of other faces would find those of the vertex at one of the places.
   [[nodiscard]] bool finds(std::size_t place) const;
-  /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`.
+  /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`. A face with a
+  /// triangle that faces backwards counts as one; what else that triangle meets counts or not, by the order of faces,
+  /// which earlier counts change.
   [[nodiscard]] std::size_t countConflicts(std::size_t place, std::size_t most);
 
  private:
@@ -48,10 +51,10 @@ class VertexTrial {
     double most;
   };
 
-  void addFaces(const Box& box);
+  void addFaces(const Float4Box& box);
   void addOwn(const EdgeRef& e, std::span<const Triangle> triangles);
   void findSheets();
-  void addNear(OwnTriangle& own, const Box& places);
+  void addNear(OwnTriangle& own, const Float4Box& places);
   void move(const OwnPiece& piece, std::size_t place);
   [[nodiscard]] bool facesForward(const OwnPiece& piece, OwnTriangle& own) const;
   [[nodiscard]] std::size_t countPiece(std::size_t i, std::size_t most);
@@ -59,8 +62,8 @@ class VertexTrial {
   [[nodiscard]] bool meets(const OwnTriangle& own, const NearTriangle& near) const;
   [[nodiscard]] std::span<OwnTriangle> triangles(const OwnPiece& piece) { return {&mOwn[piece.first], piece.count}; }
 
-  const NearFaces& mNearFaces;
-  const FaceTests& mTests;
+  const FaceLocator& mLocator;
+  const FaceTests& mFaces;
   std::span<const Vec3f> mPlaces;
   std::uint32_t mVertex;
   std::vector<Reach> mReach;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "extract/certify/near_faces.h"
+#include "extract/certify/working_mesh.h"
+
+namespace pdc::detail {
+
+/// Moves suspect vertices on creases back towards where they are wanted, as far as their faces then have no conflict,
+/// now that all others have come to rest. Those that bring each other conflicts return to where they were.
+/// \throws Cancelled.
+void restoreCreases(WorkingMesh& mesh, NearFaces& near);
+
+}  // namespace pdc::detail

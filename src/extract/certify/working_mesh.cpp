@@ -1,0 +1,100 @@
+#include "extract/certify/working_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "extract/certify/sort_unique.h"
+#include "parallel/gather.h"
+
+namespace pdc::detail {
+namespace {
+
+/// By number of retractions, the share of the way from its safe place at which a vertex lies. Steps of halves cost half
+/// of the sharpness of creases.
+constexpr std::array<float, 9> kShare{1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0};
+
+Quad otherDiagonal(const Quad& q) { return {q[1], q[2], q[3], q[0]}; }
+
+}  // namespace
+
+WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex>& suspects, Mesh& mesh,
+                         const Monitor& monitor)
+    : mEdgeCells(surface.blocks, surface.topology),
+      mFans(surface.source, surface.blocks, mEdgeCells, mesh),
+      mVertices(suspects.begin(), suspects.end()),
+      mFaces(surface.source.map(), mEdgeCells, mFans, SuspectIndex(suspects), mVertices, mesh),
+      mMesh(mesh),
+      mMonitor(monitor) {}
+
+bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} == kShare.size(); }
+
+std::ptrdiff_t WorkingMesh::movable(std::uint32_t vertex) const {
+  const VertexState* v = mFaces.suspect(vertex);
+  return v == nullptr || fullyRetracted(*v) ? -1 : v - mVertices.data();
+}
+
+void WorkingMesh::moveTo(std::size_t i, const Vec3f& place) {
+  VertexState& v = mVertices[i];
+  v.place = place;
+  mMesh.positions[v.vertex] = mFaces.worldPosition(v, place);
+}
+
+void WorkingMesh::retract(std::size_t i) {
+  VertexState& v = mVertices[i];
+  moveTo(i, v.safe + (v.retractedFrom - v.safe) * kShare[++v.retractions]);
+}
+
+void WorkingMesh::restartAt(std::size_t i, const Vec3f& place) {
+  mVertices[i].retractedFrom = place;
+  mVertices[i].retractions = 0;
+  moveTo(i, place);
+}
+
+std::vector<EdgeRef> WorkingMesh::quadsAt(std::span<const std::size_t> vertices) const {
+  std::vector<EdgeRef> quads = gather<EdgeRef>(vertices.size(), [&](std::size_t i, std::vector<EdgeRef>& out) {
+    mMonitor.throwIfStopped();
+    mEdgeCells.forEachEdgeAt(mVertices[vertices[i]], [&](const EdgeRef& e) { out.push_back(e); });
+  });
+  sortUnique(quads);
+  return quads;
+}
+
+bool WorkingMesh::fixed(const EdgeRef& e) const {
+  const Quad ring = mEdgeCells.vertices(e);
+  return std::none_of(ring.begin(), ring.end(), [this](std::uint32_t v) { return movable(v) >= 0; });
+}
+
+Quad WorkingMesh::turned(const EdgeRef& e) const { return otherDiagonal(mMesh.quads[mEdgeCells.face(e)]); }
+
+void WorkingMesh::turn(const std::vector<EdgeRef>& edges) {
+  for (const EdgeRef& e : edges) mMesh.quads[mEdgeCells.face(e)] = turned(e);
+  mTurnCount += edges.size();
+  const auto middle = mTurned.insert(mTurned.end(), edges.begin(), edges.end());
+  std::inplace_merge(mTurned.begin(), middle, mTurned.end());
+}
+
+bool WorkingMesh::turnedBefore(const EdgeRef& e) const { return std::binary_search(mTurned.begin(), mTurned.end(), e); }
+
+void WorkingMesh::chooseSafeDiagonals(const std::vector<EdgeRef>& edges) {
+  std::atomic<std::size_t> turns{0};
+  const std::vector<EdgeRef> fans = gather<EdgeRef>(edges.size(), [&](std::size_t i, std::vector<EdgeRef>& out) {
+    mMonitor.throwIfStopped();
+    const EdgeRef& e = edges[i];
+    const std::uint64_t face = mEdgeCells.face(e);
+    if (mFans.has(face) || !fixed(e)) return;
+    Quad& quad = mMesh.quads[face];
+    if (mFaces.passes(e, quad)) return;
+    const Quad other = otherDiagonal(quad);
+    if (!mFaces.passes(e, other)) return out.push_back(e);
+    quad = other;
+    turns.fetch_add(1, std::memory_order_relaxed);
+  });
+  for (const EdgeRef& e : fans) {
+    mMonitor.throwIfStopped();
+    mFans.add(e);
+  }
+  mTurnCount += turns;
+}
+
+}  // namespace pdc::detail
