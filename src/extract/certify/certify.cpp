@@ -3,12 +3,12 @@
 #include <array>
 #include <numeric>
 
-#include "extract/certify/near_faces.h"
 #include "extract/certify/remedies.h"
 #include "extract/certify/restore_creases.h"
-#include "extract/certify/round_progress.h"
-#include "extract/certify/sort_unique.h"
 #include "extract/certify/working_mesh.h"
+#include "extract/conflicts/near_faces.h"
+#include "extract/conflicts/round_progress.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 namespace {

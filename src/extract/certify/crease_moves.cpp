@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "extract/certify/sort_unique.h"
 #include "extract/certify/vertex_trial.h"
 #include "parallel/gather.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 namespace {

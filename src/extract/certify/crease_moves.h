@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "extract/certify/near_faces.h"
 #include "extract/certify/working_mesh.h"
+#include "extract/conflicts/near_faces.h"
 
 namespace pdc::detail {
 

@@ -2,7 +2,7 @@
 
 #include "extract/certify/crease_moves.h"
 #include "extract/certify/remedies.h"
-#include "extract/certify/sort_unique.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "extract/certify/near_faces.h"
 #include "extract/certify/working_mesh.h"
+#include "extract/conflicts/near_faces.h"
 
 namespace pdc::detail {
 

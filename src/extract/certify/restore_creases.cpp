@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "extract/certify/crease_moves.h"
-#include "extract/certify/sort_unique.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 

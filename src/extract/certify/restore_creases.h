@@ -1,7 +1,7 @@
 #pragma once
 
-#include "extract/certify/near_faces.h"
 #include "extract/certify/working_mesh.h"
+#include "extract/conflicts/near_faces.h"
 
 namespace pdc::detail {
 

@@ -1,7 +1,7 @@
 #include <tbb/parallel_for.h>
 
 #include "extract/certify/remedies.h"
-#include "extract/certify/sort_unique.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 

@@ -2,7 +2,7 @@
 #include <iterator>
 
 #include "extract/certify/remedies.h"
-#include "extract/certify/sort_unique.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 

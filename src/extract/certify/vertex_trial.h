@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "extract/certify/face_locator.h"
-#include "extract/certify/float4_box.h"
-#include "extract/certify/triangle_filters.h"
+#include "extract/conflicts/face_locator.h"
+#include "extract/conflicts/float4_box.h"
+#include "extract/conflicts/triangle_filters.h"
 
 namespace pdc::detail {
 

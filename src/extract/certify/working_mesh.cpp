@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 
-#include "extract/certify/sort_unique.h"
 #include "parallel/gather.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 namespace {

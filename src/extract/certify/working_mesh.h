@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "extract/certify/face_tests.h"
-#include "extract/certify/fans.h"
-#include "extract/certify/vertex_state.h"
+#include "extract/conflicts/face_tests.h"
+#include "extract/conflicts/fans.h"
+#include "extract/conflicts/vertex_state.h"
 #include "extract/topology/edge_cells.h"
 #include "extract/topology/surface.h"
 #include "pdc/monitor.h"

@@ -3,8 +3,8 @@
 #include "io/file/atomic_file.h"
 #include "io/mesh/mesh_format.h"
 #include "io/mesh/obj_writer.h"
-#include "io/mesh/openmesh_writer.h"
 #include "io/mesh/ply_writer.h"
+#include "io/openmesh/openmesh_writer.h"
 #include "mesh/mesh_checks.h"
 
 namespace pdc {

@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
-#include "extract/certify/conflict.h"
 #include "extract/certify/uncertified_mesh.h"
+#include "extract/conflicts/conflict.h"
 #include "mesh/triangle_pair.h"
 
 namespace pdc::detail {

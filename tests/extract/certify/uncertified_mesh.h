@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "extract/certify/near_faces.h"
-#include "extract/certify/round_progress.h"
 #include "extract/certify/working_mesh.h"
+#include "extract/conflicts/near_faces.h"
+#include "extract/conflicts/round_progress.h"
 #include "extract/faces/fill_mesh.h"
 #include "extract/sign_source.h"
 #include "extract/vertices/vertex_solver.h"

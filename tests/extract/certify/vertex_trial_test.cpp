@@ -6,8 +6,8 @@
 #include <random>
 
 #include "extract/certify/brute_force.h"
-#include "extract/certify/near_faces.h"
 #include "extract/certify/uncertified_mesh.h"
+#include "extract/conflicts/near_faces.h"
 
 namespace pdc::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "extract/certify/far_faces.h"
+#include "extract/conflicts/far_faces.h"
 
 #include <gtest/gtest.h>
 

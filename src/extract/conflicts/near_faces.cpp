@@ -1,4 +1,4 @@
-#include "extract/certify/near_faces.h"
+#include "extract/conflicts/near_faces.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "extract/certify/triangle_filters.h"
+#include "extract/conflicts/triangle_filters.h"
 #include "math/lane_loops.h"
 #include "parallel/gather.h"
 

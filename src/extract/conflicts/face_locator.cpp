@@ -1,4 +1,4 @@
-#include "extract/certify/face_locator.h"
+#include "extract/conflicts/face_locator.h"
 
 #include <tbb/parallel_for.h>
 

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "extract/certify/conflict.h"
-#include "extract/certify/face_locator.h"
-#include "extract/certify/face_tests.h"
-#include "extract/certify/far_faces.h"
-#include "extract/certify/round_progress.h"
+#include "extract/conflicts/conflict.h"
+#include "extract/conflicts/face_locator.h"
+#include "extract/conflicts/face_tests.h"
+#include "extract/conflicts/far_faces.h"
+#include "extract/conflicts/round_progress.h"
 #include "extract/topology/edge_set.h"
 #include "pdc/math/simd_level.h"
 

@@ -1,4 +1,4 @@
-#include "extract/certify/far_faces.h"
+#include "extract/conflicts/far_faces.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-#include "extract/certify/face_tests.h"
+#include "extract/conflicts/face_tests.h"
 
 #include <gtest/gtest.h>
 

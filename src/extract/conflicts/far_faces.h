@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "extract/certify/face_locator.h"
-#include "extract/certify/face_tests.h"
-#include "extract/certify/float4_box.h"
+#include "extract/conflicts/face_locator.h"
+#include "extract/conflicts/face_tests.h"
+#include "extract/conflicts/float4_box.h"
 #include "pdc/math/simd_level.h"
 
 namespace pdc::detail {

@@ -1,4 +1,4 @@
-#include "extract/certify/float4_box.h"
+#include "extract/conflicts/float4_box.h"
 
 #include <gtest/gtest.h>
 

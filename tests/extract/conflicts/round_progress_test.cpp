@@ -1,4 +1,4 @@
-#include "extract/certify/round_progress.h"
+#include "extract/conflicts/round_progress.h"
 
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>

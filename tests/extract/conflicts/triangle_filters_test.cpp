@@ -1,4 +1,4 @@
-#include "extract/certify/triangle_filters.h"
+#include "extract/conflicts/triangle_filters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/mesh/openmesh_writer.h"
+#include "io/openmesh/openmesh_writer.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "io/file/atomic_file.h"
-#include "io/mesh/openmesh_quiet.h"
-#include "io/mesh/plain_exporter.h"
+#include "io/openmesh/openmesh_quiet.h"
+#include "io/openmesh/plain_exporter.h"
 #include "mesh/faces.h"
 #include "pdc/error.h"
 #include "pdc/mesh/triangulate_polygons.h"

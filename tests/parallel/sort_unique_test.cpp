@@ -1,4 +1,4 @@
-#include "extract/certify/sort_unique.h"
+#include "parallel/sort_unique.h"
 
 #include <gtest/gtest.h>
 

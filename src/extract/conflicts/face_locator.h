@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "extract/certify/face_tests.h"
-#include "extract/certify/float4_box.h"
+#include "extract/conflicts/face_tests.h"
+#include "extract/conflicts/float4_box.h"
 #include "extract/topology/edge_set.h"
 #include "pdc/math/interval.h"
 #include "pdc/monitor.h"

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "extract/certify/fans.h"
-#include "extract/certify/vertex_state.h"
+#include "extract/conflicts/fans.h"
+#include "extract/conflicts/vertex_state.h"
 #include "extract/topology/edge_cells.h"
 #include "mesh/triangle_pair.h"
 

@@ -1,4 +1,4 @@
-#include "io/mesh/openmesh_quiet.h"
+#include "io/openmesh/openmesh_quiet.h"
 
 #include <OpenMesh/Core/System/omstream.hh>
 

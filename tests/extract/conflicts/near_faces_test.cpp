@@ -1,4 +1,4 @@
-#include "extract/certify/near_faces.h"
+#include "extract/conflicts/near_faces.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "extract/certify/float4_box.h"
+#include "extract/conflicts/float4_box.h"
 #include "mesh/triangle_pair.h"
 
 namespace pdc::detail {

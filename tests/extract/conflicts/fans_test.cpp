@@ -1,4 +1,4 @@
-#include "extract/certify/fans.h"
+#include "extract/conflicts/fans.h"
 
 #include <gtest/gtest.h>
 
