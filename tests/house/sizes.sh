@@ -4,13 +4,11 @@
 set -euo pipefail
 cd "$1"
 
-readonly most_lines=400 most_files=25 most_function_lines=60 most_parameters=7
+readonly most_lines=400 most_files=25 most_function_lines=60 most_parameters=6
 
 # What is larger, and how large it may be until it is mended. The list may only shrink: an entry that is not needed, or
 # larger than needed, is an error too.
-declare -A exceptions=(
-  ['lines of CellTable.EverySideOfAQuadHasExactlyOneNeighbour in tests/extract/topology/cell_table_test.cpp']=62
-)
+declare -A exceptions=()
 
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT

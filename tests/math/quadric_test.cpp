@@ -122,6 +122,28 @@ TEST(Quadric, TheIsotropicPlaneIsTheExpectedPlane) {
   EXPECT_LT(largestDifference(full, expected), 1e-15);
 }
 
+TEST(Quadric, NoiseOfNormalsAddsTheSameToASumOfPlanes) {
+  RandomGeometry random(21);
+  const Sym Sigma_n = outer(random.point()) + outer(random.point());
+  auto planes = Quadric<double>::zero(), probabilistic = Quadric<double>::zero();
+  Vec3d points{};
+  double weight = 0, squares = 0;
+  for (int i = 0; i < 7; ++i) {
+    const Vec3d p = random.point(), n = random.direction();
+    const double w = 0.5 + i;
+    planes += planeQuadric(p, n) * w;
+    probabilistic += probabilisticPlaneQuadric(p, n, Sigma_n) * w;
+    points += p * w;
+    weight += w;
+    squares += w * quadraticForm(Sigma_n, p);
+  }
+  const auto sum = planes + normalNoiseQuadric(Sigma_n, weight, points, squares);
+  for (int i = 0; i < 20; ++i) {
+    const Vec3d x = random.point();
+    EXPECT_NEAR(sum(x), probabilistic(x), 1e-12 * probabilistic(x));
+  }
+}
+
 TEST(Quadric, TheTangentialPlaneIsTheExpectedPlane) {
   RandomGeometry random(13);
   const Vec3d q{0.3, -0.2, 0.5}, n{0.6, 0, 0.8};

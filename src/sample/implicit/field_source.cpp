@@ -84,7 +84,7 @@ void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) 
   std::size_t done = 0;
   const auto flush = [&] {
     detail::findEdgeRoots(*mField, frame, batch, t.data());
-    detail::findRootNormals(*mField, frame, batch, t.data(), &hermite.nx[done], &hermite.ny[done], &hermite.nz[done]);
+    detail::findRootNormals(*mField, frame, batch, t.data(), hermite, done);
     for (std::size_t i = 0; i < batch.size; ++i) hermite.t[done + i] = static_cast<float>(t[i]);
     done += batch.size;
     batch.size = 0;

@@ -45,8 +45,8 @@ Vec3d differenceGradient(const Field& field, const Vec3d& p, double h) {
 
 }  // namespace
 
-void findRootNormals(const Field& field, const LatticeFrame& frame, const EdgeBatch& edges, const double* t, float* nx,
-                     float* ny, float* nz) {
+void findRootNormals(const Field& field, const LatticeFrame& frame, const EdgeBatch& edges, const double* t,
+                     HermiteBlock& hermite, std::size_t first) {
   EdgePoints points;
   for (std::size_t i = 0; i < edges.size; ++i) points.place(i, frame, edges, i, t[i]);
   std::array<double, EdgeBatch::kCapacity> value, gx, gy, gz;
@@ -57,9 +57,9 @@ void findRootNormals(const Field& field, const LatticeFrame& frame, const EdgeBa
       const Vec3d p{points.p[0][i], points.p[1][i], points.p[2][i]};
       n = direction(differenceGradient(field, p, kDifferenceStep * frame.voxelSize));
     }
-    nx[i] = static_cast<float>(n.x);
-    ny[i] = static_cast<float>(n.y);
-    nz[i] = static_cast<float>(n.z);
+    hermite.nx[first + i] = static_cast<float>(n.x);
+    hermite.ny[first + i] = static_cast<float>(n.y);
+    hermite.nz[first + i] = static_cast<float>(n.z);
   }
 }
 

@@ -149,6 +149,61 @@ class EdgeNeighbourhood {
   SignLattice mLattice;
 };
 
+/// Whether a cell about a quad flips: never, always, or as a cell beyond the four says.
+enum class Flip { kNever, kOutside, kAlways };
+
+std::array<Flip, 4> flipsOf(const EdgeNeighbourhood& at) {
+  std::array<Flip, 4> flips{};
+  for (int k = 0; k < 4; ++k) {
+    const int face = kCellTable[at.code[k]].flipFace, next = (k + 1) & 3, previous = (k + 3) & 3;
+    const auto ifFlippable = [&](int cell) {
+      return kCellTable[at.code[cell]].flipFace != kNone ? Flip::kAlways : Flip::kNever;
+    };
+    if (face == kNone) {
+      flips[k] = Flip::kNever;
+    } else if (face == EdgeNeighbourhood::faceToNext(k)) {
+      flips[k] = ifFlippable(next);
+    } else if ((face ^ 1) == EdgeNeighbourhood::faceToNext(previous)) {
+      flips[k] = ifFlippable(previous);
+    } else {
+      flips[k] = Flip::kOutside;
+    }
+  }
+  return flips;
+}
+
+/// The edges that segments join to the central edge in face `f` of a cell.
+std::vector<int> partners(const EdgeNeighbourhood& at, int cell, bool flip, int f) {
+  const Segments s = segments(at.code[cell], flip);
+  const int e = EdgeNeighbourhood::centralEdge(cell);
+  std::vector<int> found;
+  for (int i = 0; i < s.size; ++i)
+    if (s.at[i].face == f && (s.at[i].edge0 == e || s.at[i].edge1 == e))
+      found.push_back(s.at[i].edge0 == e ? s.at[i].edge1 : s.at[i].edge0);
+  return found;
+}
+
+/// The side of the quad between cells k and the next is the segment of their common face at the central edge: both
+/// cells continue it to the same edge, and no other segment of the face joins the same two vertices.
+void expectOneNeighbour(const EdgeNeighbourhood& at, const std::array<bool, 4>& flip, int k) {
+  const int n = (k + 1) & 3, face = EdgeNeighbourhood::faceToNext(k), axis = face / 2;
+  const auto here = partners(at, k, flip[k], face), there = partners(at, n, flip[n], face ^ 1);
+  ASSERT_EQ(here.size(), 1u);
+  ASSERT_EQ(there.size(), 1u);
+  const auto flat = [&](int e) { return std::pair{kCellEdge[e].axis, kCellEdge[e].low & ~(1 << axis)}; };
+  ASSERT_EQ(flat(here[0]), flat(there[0])) << "the two cells continue the surface differently";
+  const Patches own = patches(at.code[k], flip[k]), next = patches(at.code[n], flip[n]);
+  const Segments s = segments(at.code[k], flip[k]);
+  int same = 0;
+  for (int i = 0; i < s.size; ++i) {
+    if (s.at[i].face != face) continue;
+    const int e = s.at[i].edge0, across = edgeBetween(kCellEdge[e].low ^ 1 << axis, kCellEdge[e].high ^ 1 << axis);
+    same += own.vertex[e] == own.vertex[EdgeNeighbourhood::centralEdge(k)] &&
+            next.vertex[across] == next.vertex[EdgeNeighbourhood::centralEdge(n)];
+  }
+  ASSERT_EQ(same, 1);
+}
+
 // All 2^18 neighbourhoods of a lattice edge. Whether a cell flips can depend on a cell outside, so wherever it does
 // both answers are tried: on each of the central quad's four sides exactly one other quad continues it, and no diagonal
 // recurs.
@@ -157,59 +212,18 @@ TEST(CellTable, EverySideOfAQuadHasExactlyOneNeighbour) {
   for (unsigned bits = 0; bits < 1u << 18; ++bits) {
     const EdgeNeighbourhood at(bits);
     if (!at.central()) continue;
-    std::array<int, 4> canFlip{};
-    for (int k = 0; k < 4; ++k) {
-      const int face = kCellTable[at.code[k]].flipFace;
-      const int next = (k + 1) & 3, previous = (k + 3) & 3;
-      canFlip[k] = face == kNone                              ? 0
-                   : face == EdgeNeighbourhood::faceToNext(k) ? (kCellTable[at.code[next]].flipFace != kNone ? 2 : 0)
-                   : (face ^ 1) == EdgeNeighbourhood::faceToNext(previous)
-                       ? (kCellTable[at.code[previous]].flipFace != kNone ? 2 : 0)
-                       : 1;  // 0 never, 1 depends on a cell outside, 2 always.
-    }
+    const std::array<Flip, 4> flips = flipsOf(at);
     for (unsigned choice = 0; choice < 16; ++choice) {
       std::array<bool, 4> flip{};
       bool possible = true;
       for (int k = 0; k < 4; ++k) {
         const bool chosen = (choice >> k & 1) != 0;
-        possible &= !chosen || canFlip[k] == 1;
-        flip[k] = canFlip[k] == 2 || (canFlip[k] == 1 && chosen);
+        possible &= !chosen || flips[k] == Flip::kOutside;
+        flip[k] = flips[k] == Flip::kAlways || chosen;
       }
       if (!possible) continue;
       ++quads;
-      for (int k = 0; k < 4; ++k) {
-        const int n = (k + 1) & 3, face = EdgeNeighbourhood::faceToNext(k);
-        // The quad's side towards cell n is the segment of the common face at the central edge.
-        const auto partner = [&](int cell, int f) {
-          const Segments s = segments(at.code[cell], flip[cell]);
-          const int e = EdgeNeighbourhood::centralEdge(cell);
-          std::vector<int> found;
-          for (int i = 0; i < s.size; ++i)
-            if (s.at[i].face == f && (s.at[i].edge0 == e || s.at[i].edge1 == e))
-              found.push_back(s.at[i].edge0 == e ? s.at[i].edge1 : s.at[i].edge0);
-          return found;
-        };
-        const auto here = partner(k, face), there = partner(n, face ^ 1);
-        ASSERT_EQ(here.size(), 1u);
-        ASSERT_EQ(there.size(), 1u);
-        const int axis = face / 2;
-        const auto flat = [&](int e) { return std::pair{kCellEdge[e].axis, kCellEdge[e].low & ~(1 << axis)}; };
-        ASSERT_EQ(flat(here[0]), flat(there[0])) << "the two cells continue the surface differently, bits " << bits;
-        // No other segment of that face may join the same two vertices.
-        const Segments s = segments(at.code[k], flip[k]);
-        int same = 0;
-        for (int i = 0; i < s.size; ++i) {
-          if (s.at[i].face != face) continue;
-          const auto in = [&](int e) {
-            return patches(at.code[n], flip[n])
-                .vertex[edgeBetween(kCellEdge[e].low ^ 1 << axis, kCellEdge[e].high ^ 1 << axis)];
-          };
-          same += patches(at.code[k], flip[k]).vertex[s.at[i].edge0] ==
-                      patches(at.code[k], flip[k]).vertex[EdgeNeighbourhood::centralEdge(k)] &&
-                  in(s.at[i].edge0) == patches(at.code[n], flip[n]).vertex[EdgeNeighbourhood::centralEdge(n)];
-        }
-        ASSERT_EQ(same, 1) << "bits " << bits;
-      }
+      for (int k = 0; k < 4; ++k) ASSERT_NO_FATAL_FAILURE(expectOneNeighbour(at, flip, k)) << "bits " << bits;
     }
   }
   EXPECT_GT(quads, 1 << 17);
