@@ -10,7 +10,7 @@
 #include "extract/conflicts/face_tests.h"
 #include "extract/conflicts/float4_box.h"
 #include "extract/topology/edge_set.h"
-#include "pdc/math/interval.h"
+#include "pdc/math/box.h"
 #include "pdc/monitor.h"
 
 namespace pdc::detail {
