@@ -47,5 +47,12 @@ TEST(Box, CentreAndRadius) {
   EXPECT_EQ(box.radius(), 3);
 }
 
+TEST(Box, RadiusReachesItsCorners) {
+  const Box box{{1, -2, 0}, {3, 2, 4}};
+  EXPECT_EQ(box.center(), (Vec3d{2, 0, 2}));
+  EXPECT_EQ(box.halfSize(), (Vec3d{1, 2, 2}));
+  EXPECT_EQ(box.radius(), 3);
+}
+
 }  // namespace
 }  // namespace pdc
