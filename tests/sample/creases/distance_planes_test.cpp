@@ -11,7 +11,7 @@
 #include "sample/creases/crease_sheets.h"
 #include "sample/creases/gradient_jumps.h"
 #include "sample/creases/voxel_planes.h"
-#include "sample/patch_edges.h"
+#include "sample/cell_edges.h"
 
 namespace pdc::detail {
 namespace {
