@@ -11,6 +11,7 @@
 #include "math/float_lanes.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_batch.h"
+#include "sample/creases/sheet_cosine.h"
 #include "sample/patch_edges.h"
 
 namespace pdc::detail {
@@ -34,10 +35,8 @@ constexpr double kSnap = 1e-4;
 /// plain gradients, eight times as many vertices are drawn back, and the dragon takes twice as long.
 constexpr double kFlatness = 1e-3, kFit = 2;
 
-/// Exact normals tell of a crease if a vertex misses their planes by no more, in voxels; those that agree to within 26°
-/// are of one side.
+/// Exact normals tell of a crease if a vertex misses their planes by no more, in voxels.
 constexpr double kExact = 0.01;
-constexpr float kSameSheet = 0.9F;
 
 float reach(const Vec3f& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}); }
 
@@ -277,7 +276,7 @@ struct BlockVertexSolver::Scratch {
       const double l = length(n);
       if (!(l > 0)) return;
       const Vec3f normal = vecCast<float>(n * (1 / l));
-      const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSameSheet; };
+      const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSheetCosine; };
       if (count < normals.size() && std::none_of(normals.begin(), normals.begin() + count, alike))
         normals[count++] = normal;
     };
