@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "extract/vertices/cell_rounding.h"
+#include "sample/creases/sheet_cosine.h"
 
 namespace pdc::detail {
 namespace {
@@ -16,9 +17,6 @@ constexpr double kFlatness = 1e-3, kFit = 2;
 
 /// Exact normals tell of a crease if a vertex misses their planes by no more, in voxels.
 constexpr double kExact = 0.01;
-
-/// Normals that agree to within 26° are of one sheet.
-constexpr float kSameSheet = 0.9F;
 
 template <typename T>
 void clampToCube(Vec3<T>& x, double halfSize) {
@@ -93,7 +91,7 @@ std::array<Vec3f, 4> PatchSolver::creaseNormals(const Vec3d& x, const CellMetric
     const double l = length(n);
     if (!(l > 0)) return;
     const Vec3f normal = vecCast<float>(n * (1 / l));
-    const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSameSheet; };
+    const auto alike = [&](const Vec3f& other) { return dot(other, normal) > kSheetCosine; };
     if (count < normals.size() && std::none_of(normals.begin(), normals.begin() + count, alike))
       normals[count++] = normal;
   };

@@ -28,7 +28,7 @@ struct SampledBlock {
 /// Fills the planes of those patches beside which the distances show a crease.
 ///
 /// Where the normals of a patch's crossings agree there is none. Otherwise each voxel of the 4×4×4 about the cell that
-/// sees a smooth piece of surface (see voxelPlanes) tells where that piece lies. A patch gathers those near it, sorts
+/// sees a smooth piece of surface (see VoxelPlanes) tells where that piece lies. A patch gathers those near it, sorts
 /// them into sheets, and replaces its crossings' planes by one plane per sheet, through and tangent to the sheet where
 /// all sheets meet. Sheets that none of its crossings lies on, unless they meet within the cell, and those that have no
 /// point in common with the others, are left out. \param read fills the rows of the block's stencil; called at most

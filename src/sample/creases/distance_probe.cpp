@@ -12,7 +12,7 @@
 namespace pdc::detail {
 namespace {
 
-/// Fewer values than these are no sample.
+/// A sample of fewer values says nothing.
 constexpr std::size_t kLeast = 32;
 /// First quartile of the size of a number that is distributed normally, with deviation 1.
 constexpr double kQuartile = 0.3186;
@@ -34,11 +34,11 @@ double quantile(std::vector<float>& values, double share) {
   return *at;
 }
 
-/// Sizes of what is looked at, in voxels, in any order.
+/// Sizes of slope errors and of third and fourth differences, in voxels, in any order.
 struct Sizes {
   std::vector<float> slopes, thirds, fourths;
 
-  /// Adds those of a block. \param Kt turns gradients in lattice units into those in voxels.
+  /// Adds the sizes of a block. \param Kt turns gradients in lattice units into those in voxels.
   void add(const DistanceStencil& stencil, const Mat3d& Kt) {
     for (int i = 0; i < kBlockSize * kBlockSize * kBlockSize; ++i) {
       const float* p = &stencil.value[DistanceStencil::index(i >> 6, i >> 3 & 7, i & 7)];

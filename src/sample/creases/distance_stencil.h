@@ -28,7 +28,7 @@ struct DistanceStencil {
     return rows;
   }
 
-  Rows rows = allRows();  ///< Along z, that are to be read: by x + kReach, bit y + kReach.
+  Rows rows = allRows();  ///< The rows along z that are to be read: by x + kReach, bit y + kReach.
   alignas(64) std::array<float, kPoints * kPoints * kLanes> value;
 };
 

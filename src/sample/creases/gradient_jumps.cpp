@@ -1,6 +1,9 @@
 #include "sample/creases/gradient_jumps.h"
 
+#include <cmath>
+
 #include "math/lane_loops.h"
+#include "sample/creases/one_sided_slopes.h"
 
 namespace pdc::detail {
 

@@ -16,14 +16,14 @@ constexpr double kUsualBend = 0.02;
 /// What is wrong with heights and normals besides noise, in voxels and without unit.
 constexpr double kHeightError = 0.01, kNormalError = 0.01;
 
-/// Of w = p0 + p1 u + p2 v + ½ p3 u² + p4 uv + ½ p5 v², the height over the tangent plane at (u, v).
+/// The unknowns p of w = p0 + p1 u + p2 v + ½ p3 u² + p4 uv + ½ p5 v², the height over the tangent plane at (u, v).
 constexpr int kUnknowns = 6;
 using Vector = std::array<double, kUnknowns>;
 using Matrix = std::array<Vector, kUnknowns>;
 
 /// Solves A x = b, for a positive definite A of which the lower triangle counts, by A = LDLᵀ.
 Vector solve(Matrix A, Vector b) {
-  Vector inverse;  // Of D. A[j][i] above the diagonal holds D L.
+  Vector inverse;  // The inverse of D. A[j][i] above the diagonal holds D L.
   for (int j = 0; j < kUnknowns; ++j) {
     for (int i = j; i < kUnknowns; ++i)
       for (int k = 0; k < j; ++k) A[i][j] -= A[i][k] * A[k][j];
@@ -53,14 +53,14 @@ struct Frame {
   Vec3d e1, e2, n;
 };
 
-/// Sums over samples at (u, v, w) with normals m, each by its share.
+/// Sums over samples at (u, v, w) with normals m, by their fit weights.
 struct Sums {
-  double power[5][5] = {};   ///< Of u^i v^j, where i + j ≤ 4,
-  double height[3][3] = {};  ///< of w u^i v^j, where i + j ≤ 2,
-  double slope[2][3] = {};   ///< and of m · e1 and m · e2, times 1, u and v.
+  double power[5][5] = {};   ///< Sums of u^i v^j, where i + j ≤ 4.
+  double height[3][3] = {};  ///< Sums of w u^i v^j, where i + j ≤ 2.
+  double slope[2][3] = {};   ///< Sums of m · e1 and m · e2, times 1, u and v.
 };
 
-Sums sumUp(const SurfaceSamples& samples, const float* share, const Vec3f& center, const Frame& frame,
+Sums sumUp(const SurfaceSamples& samples, const float* fitWeight, const Vec3f& center, const Frame& frame,
            SimdLevel level) {
   constexpr int kPowers = 15, kHeights = 6, kSlopes = 6;
   constexpr int kOf[kPowers][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1},
@@ -72,7 +72,7 @@ Sums sumUp(const SurfaceSamples& samples, const float* share, const Vec3f& cente
     const float *nx = column(SurfaceSamples::kNormalX), *ny = column(SurfaceSamples::kNormalY),
                 *nz = column(SurfaceSamples::kNormalZ), *fx = column(SurfaceSamples::kFootX),
                 *fy = column(SurfaceSamples::kFootY), *fz = column(SurfaceSamples::kFootZ),
-                *own = share + block * kLanes;
+                *own = fitWeight + block * kLanes;
     forEachLane([&](int lane) {
       const Vec3f d = Vec3f{fx[lane], fy[lane], fz[lane]} - center, m{nx[lane], ny[lane], nz[lane]};
       const float t = own[lane], u = dot(d, e1), v = dot(d, e2), w = dot(d, n), m1 = t * dot(m, e1),
@@ -99,7 +99,7 @@ Vector fit(const Sums& s, double normalNoise) {
   const double heightNoise = normalNoise / kNormalNoise;
   const double ofHeight = 1 / (heightNoise * heightNoise + kHeightError * kHeightError),
                ofNormal = 1 / (normalNoise * normalNoise + kNormalError * kNormalError);
-  // Of the unknowns: powers of u and v, and factors.
+  // Each unknown's powers of u and v, and its factor.
   constexpr int kU[] = {0, 1, 0, 2, 1, 0}, kV[] = {0, 0, 1, 0, 1, 2};
   constexpr double kFactor[] = {1, 1, 1, 0.5, 1, 0.5};
   Matrix A{};
@@ -123,10 +123,10 @@ Vector fit(const Sums& s, double normalNoise) {
 
 }  // namespace
 
-CreaseSheet fitNoisySheet(const SurfaceSamples& samples, const float* share, const CreaseSheet& sheet,
+CreaseSheet fitNoisySheet(const SurfaceSamples& samples, const float* fitWeight, const CreaseSheet& sheet,
                           double normalNoise, SimdLevel level) {
   const Frame f(sheet.normal);
-  const Vector p = fit(sumUp(samples, share, vecCast<float>(sheet.center), f, level), normalNoise);
+  const Vector p = fit(sumUp(samples, fitWeight, vecCast<float>(sheet.center), f, level), normalNoise);
   CreaseSheet fitted = sheet;
   const Vec3d gradient = f.n - f.e1 * p[1] - f.e2 * p[2];
   const double l = length(gradient);

@@ -6,11 +6,13 @@
 #include <limits>
 
 #include "math/lane_loops.h"
+#include "sample/creases/one_sided_slopes.h"
 
 namespace pdc::detail {
 namespace {
 
-/// The edges along one axis, as one lane sees them. Written for one edge, vectorised over sixteen: without branches.
+/// Finds crossings and normals of the edges along one axis. Written for one edge, without branches, and vectorised over
+/// sixteen.
 struct AxisKernel {
   const float* value;
   const int* point;  ///< Index in the stencil of each edge's lower end.
@@ -26,8 +28,7 @@ struct AxisKernel {
     const float below = p[-s], here = p[0], above = p[s];
     const int a = usable(above), b = usable(below), h = usable(here);
     const float oneSided = a != 0 ? above - here : here - below;
-    const float central = 0.5F * (above - below);
-    const float chosen = (h & (a ^ b)) != 0 ? oneSided : central;
+    const float chosen = (h & (a ^ b)) != 0 ? oneSided : centralSlope(p, s);
     return (h & (a ^ 1) & (b ^ 1)) != 0 ? 0.0F : chosen;
   }
 
@@ -44,7 +45,7 @@ struct AxisKernel {
     const float gx = map.row[0].x * along + map.row[0].y * u + map.row[0].z * v;
     const float gy = map.row[1].x * along + map.row[1].y * u + map.row[1].z * v;
     const float gz = map.row[2].x * along + map.row[2].y * u + map.row[2].z * v;
-    // By the largest component first: the square of a float may not be one.
+    // The largest component is divided out first: the square of a float may overflow.
     const float ax = std::abs(gx), ay = std::abs(gy), az = std::abs(gz);
     const float xy = ax > ay ? ax : ay, largest = xy > az ? xy : az;
     const float inverse = 1 / largest;
@@ -58,38 +59,62 @@ struct AxisKernel {
   }
 };
 
+/// Rows along z of a stencil: row (x, y) is bit y + 1 of number x + 1.
+using RowBits = std::array<unsigned, GradientStencil::kPoints>;
+
+/// Where the low ends of a block's edges along one axis lie.
+struct LowEnds {
+  RowBits rows{};
+  bool atLowestZ = false;  ///< One of them has z = 0.
+};
+LowEnds findLowEnds(const EdgeIndex& edges, int axis) {
+  LowEnds ends;
+  const std::uint16_t* point = edges.points();
+  for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
+    ends.rows[(point[i] >> 8) + 1] |= 2u << (point[i] >> 4 & 15);
+    ends.atLowestZ |= (point[i] & 15) == 0;
+  }
+  return ends;
+}
+
+/// Adds the rows of both ends of edges along an axis, and of the ends' neighbours on the other two axes.
+void addNeighbours(const RowBits& lowEnds, int axis, RowBits& needed) {
+  for (int x = 1; x <= kBlockPoints; ++x) {
+    const unsigned low = lowEnds[x], both = axis == 1 ? low | low << 1 : low,
+                   withY = axis == 1 ? both : both | both >> 1 | both << 1;
+    needed[x] |= withY;
+    if (axis == 0) {
+      needed[x + 1] |= withY;
+    } else {
+      needed[x - 1] |= both;
+      needed[x + 1] |= both;
+    }
+  }
+}
+
+/// See GradientStencilRows::parts().
+unsigned partsOf(const RowBits& needed) {
+  std::array<unsigned, 3> rows{};
+  for (int x = 0; x < GradientStencil::kPoints; ++x) rows[GradientStencil::part(x - 1)] |= needed[x];
+  constexpr std::array<unsigned, 3> kRowsOfPart{1, 0xFF << 1, 3 << 9};
+  unsigned parts = 0;
+  for (int part = 0; part < 9; ++part) parts |= unsigned{(rows[part / 3] & kRowsOfPart[part % 3]) != 0} << part;
+  return parts;
+}
+
 }  // namespace
 
 GradientStencilRows::GradientStencilRows(const EdgeIndex& edges) {
-  constexpr int n = GradientStencil::kPoints;
-  std::array<unsigned, n> needed{};  // By x + 1; bit y + 1.
-  // Slopes across an edge are taken at both of its ends.
-  const std::uint16_t* point = edges.points();
+  RowBits needed{};
   for (int axis = 0; axis < 3; ++axis) {
-    std::array<unsigned, kBlockPoints> from{};
-    bool lowest = false;
-    for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
-      from[point[i] >> 8] |= 2u << (point[i] >> 4 & 15);
-      lowest |= (point[i] & 15) == 0;
-    }
-    mBelow = mBelow || (axis != 2 && lowest);
-    for (int x = 0; x < kBlockPoints; ++x) {
-      const unsigned ends = axis == 1 ? from[x] | from[x] << 1 : from[x];
-      const unsigned beside = axis == 1 ? ends : ends | ends >> 1 | ends << 1;
-      needed[x + 1] |= beside;
-      if (axis == 0) {
-        needed[x + 2] |= beside;
-      } else {
-        needed[x] |= ends;
-        needed[x + 2] |= ends;
-      }
-    }
+    const LowEnds ends = findLowEnds(edges, axis);
+    addNeighbours(ends.rows, axis, needed);
+    // Slopes along z are taken where edges along the other axes end.
+    mBelow = mBelow || (axis != 2 && ends.atLowestZ);
   }
-  std::array<unsigned, 3> ofLayer{};
-  for (int x = 0; x < n; ++x) ofLayer[GradientStencil::part(x - 1)] |= needed[x];
-  constexpr unsigned kPart[3] = {1, 0xFF << 1, 3 << 9};
-  for (int part = 0; part < 9; ++part) mParts |= unsigned{(ofLayer[part / 3] & kPart[part % 3]) != 0} << part;
-  constexpr int kAtOnce = 5;  // Layers that fit into a word: a loop over few bits ends unforeseen.
+  mParts = partsOf(needed);
+  constexpr int n = GradientStencil::kPoints;
+  constexpr int kAtOnce = 5;  // Layers that fit into a word: the end of a loop over few bits is mispredicted.
   for (int first = 0; first < n; first += kAtOnce) {
     std::uint64_t word = 0;
     for (int x = first; x < n && x < first + kAtOnce; ++x) word |= std::uint64_t{needed[x]} << n * (x - first);

@@ -15,7 +15,7 @@ struct GradientStencil {
   static constexpr int kPoints = kBlockPoints + 2;
   static constexpr std::array<int, 3> kStep{kPoints * kPoints, kPoints, 1};
 
-  /// Of a point along an axis, which block it is of: 0 the one below, 1 the block itself, 2 the one above.
+  /// The block that a point belongs to, along an axis: 0 the one below, 1 the block itself, 2 the one above.
   static constexpr int part(int x) { return x < 0 ? 0 : x < kBlockSize ? 1 : 2; }
   static constexpr int index(int x, int y, int z) { return (kPoints * (x + 1) + y + 1) * kPoints + z + 1; }
 
@@ -27,11 +27,11 @@ class GradientStencilRows {
  public:
   explicit GradientStencilRows(const EdgeIndex& edges);
 
-  /// Each as kPoints (x + 1) + y + 1.
+  /// Row (x, y) is kPoints (x + 1) + y + 1.
   [[nodiscard]] std::span<const std::uint8_t> rows() const { return {mRow.data(), mSize}; }
-  /// Bit 3 GradientStencil::part(x) + GradientStencil::part(y): whether any row (x, y) of that part is needed.
+  /// Bit 3 GradientStencil::part(x) + GradientStencil::part(y) is set if any row (x, y) of that part is needed.
   [[nodiscard]] unsigned parts() const { return mParts; }
-  /// Whether the points at z = -1 are needed.
+  /// True if the points at z = -1 are needed.
   [[nodiscard]] bool below() const { return mBelow; }
 
  private:

@@ -28,9 +28,10 @@ class GridSampler {
   virtual void prefetch(const Coord& block) const = 0;
   virtual void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
                            HermiteBlock& hermite) const = 0;
-  /// Up to `most` leaves, as blocks, spread evenly over the tree.
+  /// Returns up to `most` leaves, as blocks, spread evenly over the tree.
   [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
-  /// The values about a block times `scale`, in the stencil's rows.
+  /// Reads the values about a block, times `scale`, into the rows that the stencil asks for; NaN where a value is
+  /// clamped or not finite. Other rows are left as they are.
   virtual void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const = 0;
 };
 

@@ -30,7 +30,7 @@ Vec3d centerOfData(const openvdb::GridBase& grid) {
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   if (box.empty()) return {};
   Vec3d center;
-  for (int i = 0; i < 3; ++i) center[i] = 0.5 * (double{box.min()[i]} + double{box.max()[i]});
+  for (int i = 0; i < 3; ++i) center[i] = 0.5 * (static_cast<double>(box.min()[i]) + static_cast<double>(box.max()[i]));
   return center;
 }
 
@@ -74,11 +74,11 @@ constexpr double kMostTexture = 0.005;
 /// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
 constexpr double kMostNoise = 0.3;
 
-/// Planes of a block come from samples beyond it too, whose noise is larger where it grows. Without this, where it
-/// grows by 0.004 voxel per voxel, edges were 1 to 2 % less exact.
+/// Planes of a block come from samples beyond it too, whose noise is larger where it grows. Without this factor, where
+/// noise grows by 0.004 voxel per voxel, edges were 1 to 2 % less exact.
 constexpr double kBeyond = 1.15;
 
-/// \returns nothing where crossings are all there is to take planes from.
+/// \returns nothing where planes must be taken from crossings.
 std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeDistance,
                                                    const detail::GridSampler& sampler, const LatticeMap& map) {
   const bool asked = mode == HermiteMode::kDistance;
@@ -99,7 +99,7 @@ struct GridSource::Impl {
   detail::GridReading reading;
   LatticeMap map;
   std::unique_ptr<const detail::GridSampler> sampler;
-  std::optional<detail::DistanceModel> distances;  ///< Nothing: crossings are all there is.
+  std::optional<detail::DistanceModel> distances;  ///< Nothing where planes are taken from crossings.
   detail::NoiseGrids noise;
 };
 

@@ -65,7 +65,7 @@ class LeafTable {
   [[nodiscard]] std::size_t size() const { return mLeaves.size(); }
   [[nodiscard]] const Coord& coord(std::size_t leaf) const { return mLeaves[leaf].coord; }
   [[nodiscard]] const LeafT& leaf(std::size_t leaf) const { return *mLeaves[leaf].node; }
-  /// The leaf's 512 values by offset; null for booleans, which leaves store as bits.
+  /// A leaf's 512 values by offset; null for booleans, which leaves store as bits.
   [[nodiscard]] const ValueT* values(std::size_t leaf) const { return mLeaves[leaf].values; }
   [[nodiscard]] const std::vector<const Parent*>& parents() const { return mParents; }
 
@@ -94,7 +94,7 @@ class LeafTable {
     const Coord mBlock;
     const std::int32_t mParent;
     const int mPlace;
-    bool mWithin;  ///< All of them in the block's own parent.
+    bool mWithin;  ///< True if all of them lie in the block's own parent.
   };
 
  private:

@@ -8,11 +8,13 @@
 #include <limits>
 
 #include "sample/creases/distance_stencil.h"
+#include "sample/creases/one_sided_slopes.h"
 #include "sample/vdb/contourable_grids.h"
 
 namespace pdc::detail {
 namespace {
 
+/// Counts active values that are negative or not finite.
 std::size_t countRefused(const openvdb::GridBase& grid) {
   std::size_t refused = 0;
   visitContourable(grid, [&](const auto& typed) {
@@ -24,10 +26,11 @@ std::size_t countRefused(const openvdb::GridBase& grid) {
   return refused;
 }
 
-/// A normal with more noise than this has no say.
-constexpr float kMost = 10;
+/// The largest σn that is used: a normal with that much noise has no influence.
+constexpr float kMostSigma = 10;
 
-/// Of a companion grid, linear along the edge; what is negative or not finite counts as 0.
+/// The value of a companion grid where an edge crosses, linear along the edge; what is negative or not finite counts as
+/// 0.
 float valueAt(const DistanceStencil& stencil, int low, int axis, float t) {
   const auto known = [&](int i) {
     const float v = stencil.value[i];
@@ -36,14 +39,14 @@ float valueAt(const DistanceStencil& stencil, int low, int axis, float t) {
   return (1 - t) * known(low) + t * known(low + DistanceStencil::kStep[axis]);
 }
 
-/// Where the stencil holds the low end of each edge: visit(edge, axis, index).
+/// Calls visit(edge, axis, index of its low end in a stencil) for each edge.
 template <typename Visit>
 void forEachLow(const EdgeIndex& edges, Visit&& visit) {
   edges.forEach([&](int i, int axis, int x, int y, int z) { visit(i, axis, DistanceStencil::index(x, y, z)); });
 }
 
-/// The gradient's length where an edge crosses, per voxel along the lattice, from the differences that GridSource makes
-/// its normal of.
+/// The gradient's length where an edge crosses, per voxel along the lattice, from the central differences that its
+/// normal is made of; NaN beside clamped values. Normals have one-sided differences there (see fillFromStencil()).
 float slopeAt(const DistanceStencil& values, int low, int axis, float t) {
   const auto& v = values.value;
   const int high = low + DistanceStencil::kStep[axis];
@@ -51,7 +54,7 @@ float slopeAt(const DistanceStencil& values, int low, int axis, float t) {
   float squares = along * along;
   for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
     const int s = DistanceStencil::kStep[other];
-    const float across = 0.5F * ((1 - t) * (v[low + s] - v[low - s]) + t * (v[high + s] - v[high - s]));
+    const float across = (1 - t) * centralSlope(&v[low], s) + t * centralSlope(&v[high], s);
     if (std::isfinite(across)) squares += across * across;  // Not beside clamped values.
   }
   return std::sqrt(squares);
@@ -105,7 +108,7 @@ void NoiseGrids::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
     if (noise.sigma[i] == 0) return;
     const float ratio = noise.sigma[i] / slopeAt(stencil, low, axis, hermite.t[i]);
     const float sigma = stencilNoise(hermite.t[i]) * ratio;
-    noise.sigma[i] = sigma < kMost ? sigma : kMost;  // NaN beside values that are clamped or not finite.
+    noise.sigma[i] = sigma < kMostSigma ? sigma : kMostSigma;  // NaN beside values that are clamped or not finite.
   });
 }
 

@@ -16,13 +16,13 @@ class NoiseGrids {
 
   [[nodiscard]] bool any() const { return mSigma != nullptr || mWeight != nullptr; }
   [[nodiscard]] bool hasSigma() const { return mSigma != nullptr; }
-  /// Active values that are negative or not finite.
+  /// The number of active values that are negative or not finite.
   [[nodiscard]] std::size_t refused() const { return mRefused; }
 
-  /// See HermiteSource::fillNoise. \param values of the grid itself.
+  /// See HermiteSource::fillNoise. \param values are those of the grid itself.
   void fill(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite, const GridSampler& values,
             PlaneNoise& noise) const;
-  /// Largest σ at the block's crossings, in the units of the values. \pre hasSigma()
+  /// The largest σ at the block's crossings, in the units of the values. \pre hasSigma()
   [[nodiscard]] double largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const;
 
  private:

@@ -44,12 +44,12 @@ class TileFaces {
   }
 
  private:
-  using Grandparent = typename TreeT::RootNodeType::ChildNodeType;  ///< Of leaves.
+  using Grandparent = typename TreeT::RootNodeType::ChildNodeType;
   using Parent = typename Grandparent::ChildNodeType;
   using Accessor = openvdb::tree::ValueAccessor<const TreeT>;
   static constexpr int kTiles = 1 << Parent::LOG2DIM;  ///< Leaf-sized tiles per axis of a leaf's parent.
 
-  /// Cells about the lattice edges that leave block b along `axis`.
+  /// Adds the blocks of the cells about the lattice edges that leave block b along `axis`.
   static void addCellsAt(const Coord& b, int axis, std::vector<Coord>& blocks) {
     for (int i = 0; i < 4; ++i) {
       Coord c = b;
@@ -59,7 +59,8 @@ class TileFaces {
     }
   }
 
-  /// Block b beside a tile, beyond its high or low side along `axis`. Cells beside a leaf are found from the leaf.
+  /// Looks at block b beside a tile, beyond its high or low side along `axis`. Cells beside a leaf are found from the
+  /// leaf.
   void visit(const Coord& b, int axis, bool high, Accessor& accessor, std::vector<Coord>& blocks) const {
     const openvdb::Coord p(b[0] * kBlockSize, b[1] * kBlockSize, b[2] * kBlockSize);
     if (accessor.probeConstLeaf(p) != nullptr || mReader.inside(accessor.getValue(p)) != mBackground) return;
@@ -68,13 +69,13 @@ class TileFaces {
     addCellsAt(lower, axis, blocks);
   }
 
-  /// Tiles of the root and of its children.
+  /// Looks around the tiles of the root and of its children.
   void findAroundLargeTiles(const Monitor& monitor, std::vector<Coord>& blocks) const {
     Accessor accessor(mTree);
     for (auto tile = mTree.root().cbeginValueAll(); tile; ++tile)
       if (mReader.inside(*tile) != mBackground)
         findAround(openvdb::CoordBBox::createCube(tile.getCoord(), Grandparent::DIM), monitor, accessor, blocks);
-    // By their tables: iterators take several times as long, and most trees have tens of thousands of entries here.
+    // Iterators take several times as long as tables, and most trees have tens of thousands of entries here.
     std::vector<const Grandparent*> nodes;
     mTree.getNodes(nodes);
     for (const Grandparent* node : nodes) {
@@ -87,7 +88,7 @@ class TileFaces {
     }
   }
 
-  /// Around one tile.
+  /// Visits the blocks around one tile.
   void findAround(const openvdb::CoordBBox& box, const Monitor& monitor, Accessor& accessor,
                   std::vector<Coord>& blocks) const {
     checkIndex(box.min());
@@ -105,48 +106,59 @@ class TileFaces {
       }
   }
 
-  /// Sixteen leaf-sized places of a node in a row along z.
-  using Row = std::uint16_t;
+  /// The leaf-sized places of a node in rows of sixteen along z, row 16x + y, a bit each.
+  using Rows = std::array<std::uint16_t, kTiles * kTiles>;
   static_assert(kTiles == 16);
 
-  void findInParent(const Parent& node, Accessor& accessor, std::vector<Coord>& blocks) const {
-    constexpr int n = kTiles;
-    std::array<Row, n * n> background, other;  // Tiles of the background's side, and those of the other one.
+  /// Which places of a node are tiles on the background's side, and which are tiles on the other one.
+  struct TileSides {
+    Rows background, other;
+    bool anyOther;
+  };
+  TileSides findSides(const Parent& node) const {
+    TileSides sides;
     unsigned any = 0;
-    for (int r = 0; r < n * n; ++r) {
+    for (int r = 0; r < kTiles * kTiles; ++r) {
       const auto leaves = node.getChildMask().template getWord<std::uint64_t>(static_cast<openvdb::Index>(r / 4));
-      const unsigned tiles = static_cast<unsigned>(~leaves >> n * (r % 4)) & 0xFFFF;
-      unsigned differs = 0;
+      const unsigned tiles = static_cast<unsigned>(~leaves >> kTiles * (r % 4)) & 0xFFFF;
+      unsigned other = 0;
       for (unsigned w = tiles; w != 0; w &= w - 1) {
         const int z = std::countr_zero(w);
-        differs |= unsigned{mReader.inside(node.getTable()[n * r + z].getValue()) != mBackground} << z;
+        other |= unsigned{mReader.inside(node.getTable()[kTiles * r + z].getValue()) != mBackground} << z;
       }
-      other[r] = static_cast<Row>(differs);
-      background[r] = static_cast<Row>(tiles & ~differs);
-      any |= other[r];
+      sides.other[r] = static_cast<std::uint16_t>(other);
+      sides.background[r] = static_cast<std::uint16_t>(tiles & ~other);
+      any |= other;
     }
-    if (any == 0) return;
+    sides.anyOther = any != 0;
+    return sides;
+  }
+
+  /// The places of a row whose neighbours one step along an axis may be tiles on the background's side: what lies
+  /// beyond the node may be anything.
+  static unsigned maybeBesideBackground(const Rows& background, int row, int axis, int step) {
+    if (axis == 2)
+      return step < 0 ? unsigned{background[row]} << 1 | 1 : unsigned{background[row]} >> 1 | 1u << (kTiles - 1);
+    const int at = axis == 0 ? row / kTiles : row % kTiles;
+    const bool beyond = at + step < 0 || at + step >= kTiles;
+    return beyond ? ~0u : unsigned{background[row + step * (axis == 0 ? kTiles : 1)]};
+  }
+
+  void findInParent(const Parent& node, Accessor& accessor, std::vector<Coord>& blocks) const {
+    const TileSides sides = findSides(node);
+    if (!sides.anyOther) return;
     const Coord origin = blockOf({node.origin().x(), node.origin().y(), node.origin().z()});
-    for (int r = 0; r < n * n; ++r) {
-      if (other[r] == 0) continue;
-      const int x = r / n, y = r % n;
-      const auto visitBeside = [&](int axis, int step, unsigned places) {
-        for (unsigned w = places; w != 0; w &= w - 1) {
-          Coord b{origin[0] + x, origin[1] + y, origin[2] + std::countr_zero(w)};
-          b[axis] += step;
-          visit(b, axis, step > 0, accessor, blocks);
+    for (int r = 0; r < kTiles * kTiles; ++r) {
+      if (sides.other[r] == 0) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int step : {-1, 1}) {
+          unsigned faces = sides.other[r] & maybeBesideBackground(sides.background, r, axis, step);
+          for (; faces != 0; faces &= faces - 1) {
+            Coord b{origin[0] + r / kTiles, origin[1] + r % kTiles, origin[2] + std::countr_zero(faces)};
+            b[axis] += step;
+            visit(b, axis, step > 0, accessor, blocks);
+          }
         }
-      };
-      for (const int step : {-1, 1}) {
-        // What lies beyond the node may be anything.
-        const auto row = [&](int u, int there) {
-          return u + step < 0 || u + step >= n ? ~0u : unsigned{background[there]};
-        };
-        visitBeside(0, step, other[r] & row(x, r + n * step));
-        visitBeside(1, step, other[r] & row(y, r + step));
-      }
-      visitBeside(2, -1, other[r] & (unsigned{background[r]} << 1 | 1));
-      visitBeside(2, 1, other[r] & (unsigned{background[r]} >> 1 | 1u << (n - 1)));
     }
   }
 

@@ -13,7 +13,7 @@
 
 namespace pdc::detail {
 
-/// From stored value to the function that is negative inside.
+/// Turns stored values into those of the function that is negative inside.
 template <typename ValueT>
 class ValueReader {
  public:
@@ -40,8 +40,8 @@ class ValueReader {
   template <int count>
   void copy(const ValueT* from, float* to) const {
     if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
-      // What double precision would give, where the isovalue is a float. In vectors: whole registers, not to wait for
-      // parts of one that were just stored.
+      // Single precision gives what double precision would, as the isovalue is a float. Vectors load whole registers,
+      // so that none waits for parts of one that were just stored.
       int i = 0;
       for (; i + 8 <= count; i += 8) {
         Float8 v;
@@ -60,7 +60,7 @@ class ValueReader {
     std::uint8_t flag[64];
     if constexpr (std::is_floating_point_v<ValueT>) {
       int bad = 0;
-      // Vectorises, unlike isfinite().
+      // This vectorises, unlike isfinite().
       for (int i = 0; i < 64; ++i) bad |= !(std::abs(from[i]) <= std::numeric_limits<ValueT>::max());
       allFinite = allFinite && bad == 0;
     }

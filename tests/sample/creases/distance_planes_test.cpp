@@ -16,7 +16,7 @@
 namespace pdc::detail {
 namespace {
 
-constexpr PlaneTolerance kTolerance{.error = 0.04F, .usual = 0.001F, .jump = 0.01F};
+constexpr PlaneTolerance kTolerance{.cutoff = 0.04F, .scale = 0.001F, .jump = 0.01F};
 
 Vec3d unit(Vec3d v) { return v * (1 / length(v)); }
 
@@ -133,11 +133,11 @@ TEST(VoxelPlanes, APlaneIsFoundExactly) {
   }
 }
 
-TEST(VoxelPlanes, BesideAnEdgeTrustedPlanesAreThoseOfItsSides) {
+TEST(VoxelPlanes, BesideAnEdgePlanesOfLittleErrorAreThoseOfItsSides) {
   const SurfaceSamples samples = samplesAbout(stencil(wedge), {4, 4, 4});
   int left = 0, right = 0;
   for (int i = 0; i < samples.count; ++i) {
-    if (!(samples.column[SurfaceSamples::kTrust][i] > 0.5F * samples.column[SurfaceSamples::kWeight][i])) continue;
+    if (!(samples.column[SurfaceSamples::kFitWeight][i] > 0.5F * samples.column[SurfaceSamples::kSupport][i])) continue;
     const bool isLeft = degrees(samples.normal(i), kLeft) < 1, isRight = degrees(samples.normal(i), kRight) < 1;
     left += isLeft;
     right += isRight;
@@ -165,7 +165,7 @@ TEST(VoxelPlanes, StretchedLatticesGiveTheSamePlanes) {
 TEST(VoxelPlanes, WhatIsNoDistanceGivesNone) {
   const SurfaceSamples samples =
       samplesAbout(stencil([](const Vec3d& p) { return 1.3 * dot(p - kTip, kLeft); }), {4, 4, 4});
-  for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kWeight][i], 0);
+  for (int i = 0; i < samples.count; ++i) EXPECT_EQ(samples.column[SurfaceSamples::kSupport][i], 0);
 }
 
 TEST(VoxelPlanes, DoNotDependOnOtherCells) {
@@ -209,19 +209,19 @@ TEST(CreaseSheets, AnEdgeHasTwoThatMeetOnIt) {
   for (int i = 0; i < sheets.count; ++i) {
     EXPECT_EQ(sheets.sheet[i].center, baseline.sheet[i].center);
     EXPECT_EQ(sheets.sheet[i].normal, baseline.sheet[i].normal);
-    EXPECT_EQ(sheets.sheet[i].weight, baseline.sheet[i].weight);
+    EXPECT_EQ(sheets.sheet[i].support, baseline.sheet[i].support);
   }
 }
 
-TEST(CreaseSheets, LightOnesAreDropped) {
+TEST(CreaseSheets, ThoseWithLittleSupportAreDropped) {
   CreaseSheets sheets;
-  for (const double weight : {0.3, 2.0, 0.1}) sheets.sheet[sheets.count++].weight = weight;
-  sheets.dropLight(0.05);
+  for (const double support : {0.3, 2.0, 0.1}) sheets.sheet[sheets.count++].support = support;
+  sheets.dropUnsupported(0.05);
   EXPECT_EQ(sheets.count, 3);
-  sheets.dropLight(0.1);
+  sheets.dropUnsupported(0.1);
   ASSERT_EQ(sheets.count, 2);
-  EXPECT_EQ(sheets.sheet[0].weight, 0.3);
-  EXPECT_EQ(sheets.sheet[1].weight, 2.0);
+  EXPECT_EQ(sheets.sheet[0].support, 0.3);
+  EXPECT_EQ(sheets.sheet[1].support, 2.0);
 }
 
 TEST(GradientJumps, SmoothSurfacesHaveNone) {

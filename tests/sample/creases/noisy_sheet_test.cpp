@@ -27,16 +27,16 @@ struct Paraboloid {
         samples.column[SurfaceSamples::kNormalX + k][i] = static_cast<float>(normal[k]);
         samples.column[SurfaceSamples::kFootX + k][i] = static_cast<float>(foot[k]);
       }
-      share[i] = 1;
+      fitWeight[i] = 1;
     }
     for (int i = samples.count; i < samples.blocks() * kLanes; ++i) {
       for (auto& column : samples.column) column[i] = 0;
-      share[i] = 0;
+      fitWeight[i] = 0;
     }
   }
   Vec3d n{2.0 / 3, -1.0 / 3, 2.0 / 3}, e1{1 / std::sqrt(2.0), 0, -1 / std::sqrt(2.0)}, e2 = cross(n, e1);
   SurfaceSamples samples{};
-  std::array<float, SurfaceSamples::kCapacity> share{};
+  std::array<float, SurfaceSamples::kCapacity> fitWeight{};
 };
 
 CreaseSheet tilted(const Paraboloid& p, double slope) {
@@ -45,14 +45,14 @@ CreaseSheet tilted(const Paraboloid& p, double slope) {
   return {{0.1, 0.05, -0.1}, normal, {}, 0, 80};
 }
 
-TEST(NoisySide, FindsAPlaneFromATiltedStart) {
+TEST(NoisySheet, FindsAPlaneFromATiltedStart) {
   const Paraboloid p(0, 0, 1);
-  const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), tilted(p, 0.02), 0.01);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.01);
   EXPECT_GT(dot(sheet.normal, p.n), 1 - 1e-8);
   EXPECT_NEAR(sheet.value({}), 0, 1e-5);
 }
 
-TEST(NoisySide, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
+TEST(NoisySheet, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
   constexpr double kNoise = 0.05;
   double fitted = 0, mean = 0;
   for (unsigned seed = 0; seed < 50; ++seed) {
@@ -61,25 +61,25 @@ TEST(NoisySide, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
     for (int i = 0; i < p.samples.count; ++i) normal += vecCast<double>(p.samples.normal(i));
     normal *= 1 / length(normal);
     const CreaseSheet start{{}, normal, {}, 0, 80};
-    const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), start, kNormalNoise * kNoise);
+    const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), start, kNormalNoise * kNoise);
     fitted += length(sheet.normal - p.n);
     mean += length(normal - p.n);
   }
   EXPECT_LT(fitted, 0.6 * mean);
 }
 
-TEST(NoisySide, KeepsABendThatManySamplesShow) {
+TEST(NoisySheet, KeepsABendThatManySamplesShow) {
   const Paraboloid p(0.05, 0.001, 3);
-  const CreaseSheet sheet = fitNoisySheet(p.samples, p.share.data(), tilted(p, 0), kNormalNoise * 0.001);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0), kNormalNoise * 0.001);
   EXPECT_NEAR(dot(p.e1, sheet.bend * p.e1), -0.05, 0.01);
   EXPECT_NEAR(dot(p.e2, sheet.bend * p.e2), -0.05, 0.01);
   EXPECT_NEAR(dot(sheet.normal, sheet.bend * sheet.normal), 0, 1e-4);
 }
 
-TEST(NoisySide, SimdLevelsAgree) {
+TEST(NoisySheet, SimdLevelsAgree) {
   const Paraboloid p(0.02, 0.02, 5);
   const auto fit = [&](SimdLevel level) {
-    return fitNoisySheet(p.samples, p.share.data(), tilted(p, 0.02), 0.08, level);
+    return fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.08, level);
   };
   if (test::wideSimdLevels().empty()) GTEST_SKIP() << "this processor has one level only";
   const CreaseSheet base = fit(SimdLevel::kBaseline);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "simd_levels.h"
 
@@ -36,6 +37,58 @@ GradientStencil sample(const F& f) {
       for (int z = -1; z < GradientStencil::kPoints - 1; ++z)
         stencil.value[GradientStencil::index(x, y, z)] = f(x, y, z);
   return stencil;
+}
+
+/// Which rows of a stencil a block's crossings need, looked up point by point.
+struct NeededRows {
+  explicit NeededRows(const EdgeIndex& edges) {
+    edges.forEach([&](int, int axis, int x, int y, int z) {
+      for (int end = 0; end < 2; ++end) {
+        Coord p{x, y, z};
+        p[axis] += end;
+        add(p);
+        for (int other = 0; other < 3; ++other)
+          for (const int step : {-1, 1}) {
+            Coord neighbour = p;
+            neighbour[other] += step;
+            if (other != axis) add(neighbour);
+          }
+      }
+    });
+  }
+  void add(const Coord& p) {
+    rows.insert(static_cast<std::uint8_t>(GradientStencil::kPoints * (p[0] + 1) + p[1] + 1));
+    parts |= 1u << (3 * GradientStencil::part(p[0]) + GradientStencil::part(p[1]));
+    below = below || p[2] < 0;
+  }
+  std::set<std::uint8_t> rows;
+  unsigned parts = 0;
+  bool below = false;
+};
+
+TEST(GradientStencilRows, AreThoseOfTheCrossingsAndTheirNeighbours) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> place(-2, 11);
+  int below = 0, notBelow = 0;
+  for (int round = 0; round < 500; ++round) {
+    // A small ball crosses few edges, anywhere in the block; every tenth stencil is random.
+    const Vec3d center{place(engine), place(engine), place(engine)};
+    const GradientStencil stencil = sample([&](int x, int y, int z) {
+      if (round % 10 == 0) return engine() % 40 == 0 ? -1.0F : 1.0F;
+      return static_cast<float>(length(Vec3d{double(x), double(y), double(z)} - center) - 1.3);
+    });
+    const EdgeIndex edges(signsOf(stencil));
+    const detail::GradientStencilRows rows(edges);
+    const NeededRows expected(edges);
+    ASSERT_EQ(std::set<std::uint8_t>(rows.rows().begin(), rows.rows().end()), expected.rows) << round;
+    ASSERT_EQ(rows.rows().size(), expected.rows.size()) << round;
+    ASSERT_EQ(rows.parts(), expected.parts) << round;
+    ASSERT_EQ(rows.below(), expected.below) << round;
+    below += expected.below;
+    notBelow += !expected.below && edges.size() > 0;
+  }
+  EXPECT_GT(below, 20);
+  EXPECT_GT(notBelow, 100);
 }
 
 TEST(FillFromStencil, FindsThePlaneOfALinearFunction) {

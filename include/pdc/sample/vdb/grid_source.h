@@ -17,8 +17,8 @@ enum class HermiteMode {
 };
 
 struct GridSourceOptions {
-  /// Isovalue in the grid's own units. Default: 0 for level sets, 0.5 for fog volumes, booleans and unclassified
-  /// densities.
+  /// Isovalue in the grid's own units; finite. Default: 0 for level sets, 0.5 for fog volumes, booleans and
+  /// unclassified densities.
   std::optional<double> iso{};
   /// false: the tree is a function on all of space, tiles and background included, so the surface is closed.
   /// true: only cells whose eight corners are active take part, so the surface ends where activity ends.
@@ -27,12 +27,12 @@ struct GridSourceOptions {
   /// of inside), and none of them is used for a normal.
   bool acceptNonFinite = false;
   HermiteMode hermite = HermiteMode::kAuto;
-  /// What is known of each value: scalar grids with the same transform; null where nothing is. Outside of what is
-  /// active they have their background, as the grid itself. Values that are negative or not finite count as 0 (see
-  /// GridSource::refusedNoise).
-  /// Standard deviation of the value, in its own units.
+  /// Standard deviation of each value, in its own units, >= 0; null if nothing is known. Like the grid it is a function
+  /// on all of space, and has its background where nothing is active. It needs the grid's transform. Values that are
+  /// negative or not finite count as 0 (see GridSource::refusedNoise).
   openvdb::GridBase::ConstPtr sigma{};
-  /// How much the value counts beside others, like the weights of a truncated signed distance; only ratios matter.
+  /// How much each value counts beside others, >= 0, like the weights of a truncated signed distance; only ratios
+  /// matter. Null, or a grid as for sigma.
   openvdb::GridBase::ConstPtr weight{};
 };
 
@@ -41,24 +41,29 @@ struct GridSourceOptions {
 /// Inside is value < iso; for fog volumes value > iso; for unclassified grids the side of iso that the background is
 /// not on. Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged
 /// over the four cells at the edge), through the inverse transpose of the transform. Values at or beyond the background
-/// of a level set are treated as clamped: one-sided differences replace central ones there. The grid must not change
-/// while the source lives. Making one finds the tree's leaves, in parallel on the calling thread's arena. \throws Error
-/// for other value types, singular or unsupported transforms, and leaves beyond index 2³⁰.
+/// of a level set are treated as clamped: one-sided differences replace central ones there. Transforms may be affine or
+/// frustums; a frustum's voxel size and sense are those at the centre of the active voxels.
+///
+/// The source shares the grids, which must not change while it lives. Its functions may be called from many threads at
+/// once. Making one finds the tree's leaves, in parallel on the calling thread's arena.
 ///
 /// Near a crease of a distance function central differences mix the normals of both sides, and linear crossings are
 /// off. There planes come from one-sided slopes of the voxels around instead, as far as they have the length that
 /// gradients of distances have and predict the values beside them (docs/features.md). HermiteMode::kAuto does so for
 /// float and double grids that are level sets, or unclassified about a positive background, with an affine transform,
 /// if over a sample of the band the median of | |∇φ| − 1 | is at most 0.15 and the surface is not rough at the size of
-/// a voxel, as scanned meshes are whose facets would all look like creases; \throws Error where kDistance is asked for
-/// and the transform is not affine.
+/// a voxel, as scanned meshes are whose facets would all look like creases.
 ///
 /// With a σ grid each crossing's plane has its own σn: the σ there, over the length of the gradient, propagated through
-/// the differences that the normal is made of; planes from distances take the mean σ of their block in place of the
-/// noise that is measured. With a weight grid the quadric of a crossing counts by the weight there; planes from
-/// distances do not. \throws Error for such a grid that is the grid itself, has another transform or is not scalar.
+/// the differences that the normal is made of; at most 10, which is also that of crossings beside clamped values, where
+/// the gradient is not known. Planes from distances take 1.15 times the largest σ at the crossings of their block in
+/// place of the noise that is measured; where that is more than 0.3 voxels there are none. With a weight grid the
+/// quadric of a crossing counts by the weight there; planes from distances do not.
 class GridSource final : public HermiteSource {
  public:
+  /// \throws std::invalid_argument for null. \throws Error for other value types; an isovalue that is not finite;
+  /// transforms that are singular or not finite; leaves beyond index 2³⁰; kDistance where the transform is not affine;
+  /// a σ or weight grid that is the grid itself, has another transform or is not scalar.
   explicit GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options = {});
   ~GridSource() override;
 
@@ -71,13 +76,15 @@ class GridSource final : public HermiteSource {
                          FeaturePlanes& planes) const override;
   void prefetch(const Coord& block) const override;
 
+  /// The isovalue in use, in the grid's own units; finite.
   [[nodiscard]] double iso() const;
+  /// True if inside is where values are above the isovalue.
   [[nodiscard]] bool insideIsHigher() const;
   /// True if planes beside creases come from distances.
   [[nodiscard]] bool usesDistances() const;
-  /// Standard deviation of white noise in the distances, in voxels, as estimated; 0 if none are used.
+  /// Standard deviation of white noise in the distances, in voxels, as estimated, >= 0; 0 if no distances are used.
   [[nodiscard]] double valueNoise() const;
-  /// Active values of the σ and weight grids that are negative or not finite.
+  /// The number of active values of the σ and weight grids that are negative or not finite; tiles count once.
   [[nodiscard]] std::size_t refusedNoise() const;
 
  private:

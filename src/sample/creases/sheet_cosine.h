@@ -1,0 +1,8 @@
+#pragma once
+
+namespace pdc::detail {
+
+/// Normals belong to one smooth sheet of a surface where their cosine is larger: they are within 26° of each other.
+inline constexpr float kSheetCosine = 0.9F;
+
+}  // namespace pdc::detail
