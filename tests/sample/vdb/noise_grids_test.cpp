@@ -138,7 +138,7 @@ TEST_F(NoiseGridsTest, SigmaIsFiniteBesideClampedValues) {
   for (const Placement placement : {Placement::kFree, Placement::kCell}) {
     const Mesh mesh = contour(source, {.placement = placement, .confidence = true});
     ASSERT_FALSE(mesh.confidence.empty());
-    for (const float c : mesh.confidence) ASSERT_TRUE(std::isfinite(c)) << c;
+    for (const float c : mesh.values<float>("confidence")) ASSERT_TRUE(std::isfinite(c)) << c;
   }
 }
 
