@@ -137,7 +137,7 @@ TEST_F(NoiseGridsTest, SigmaIsFiniteBesideClampedValues) {
   expectLargestSigma(source, 6);
   for (const Placement placement : {Placement::kFree, Placement::kCell}) {
     const Mesh mesh = contour(source, {.placement = placement, .confidence = true});
-    ASSERT_FALSE(mesh.confidence.empty());
+    ASSERT_FALSE(mesh.values<float>("confidence").empty());
     for (const float c : mesh.values<float>("confidence")) ASSERT_TRUE(std::isfinite(c)) << c;
   }
 }
