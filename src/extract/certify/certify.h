@@ -15,10 +15,10 @@ struct CertifyCounts {
 ///
 /// Only faces that hold a suspect vertex, or may face backwards, are tested, against all others near them, in the
 /// mesh's own single precision by exact predicates. Quads are turned, vertices on creases moved to where their faces
-/// have fewer conflicts (see CreaseMoves). Then every suspect vertex of a conflicting pair of triangles is retracted
-/// towards its safe place, step by step. Where all vertices are safe, quads become fans, and cells with several patches
-/// or ambiguous faces are split (see Fans), which cannot intersect. Each round is decided from the state before it, so
-/// the result does not depend on threads. Reports the stage "certify".
+/// have fewer conflicts (see findCreaseMoves). Then every suspect vertex of a conflicting pair of triangles is
+/// retracted towards its safe place, step by step. Where all vertices are safe, quads become fans, and cells with
+/// several patches or ambiguous faces are split (see Fans), which cannot intersect. Each round is decided from the
+/// state before it, so the result does not depend on threads. Reports the stage "certify".
 ///
 /// \param mesh as fillMesh made it, in quads only; may come back with triangles beside them.
 /// \throws Cancelled within about the time of a block; Error if it would need more than 2^32 vertices.

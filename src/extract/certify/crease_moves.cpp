@@ -20,7 +20,7 @@ namespace {
 /// Steps along a crease and within one of its sides, in lattice units.
 constexpr std::array<float, 5> kAlong{0.03F, 0.08F, 0.16F, 0.3F, 0.5F};
 constexpr std::array<float, 8> kWithin{0.01F, 0.02F, 0.03F, 0.05F, 0.07F, 0.1F, 0.14F, 0.2F};
-/// Shares of the way from the safe place; and finer ones, for vertices whose neighbours have come to rest.
+/// Shares of the way from the safe place; and finer ones, for vertices whose neighbours move no more.
 constexpr std::array<float, 4> kStraight{0.98F, 0.94F, 0.85F, 0.6F};
 constexpr std::array<float, 8> kForward{0.99F, 0.97F, 0.95F, 0.92F, 0.88F, 0.8F, 0.7F, 0.5F};
 /// How often a vertex moves.
@@ -54,7 +54,7 @@ std::vector<Vec3f> placesAlong(const SuspectVertex& v, const Mat3d& M) {
   return places;
 }
 
-/// Appends places away from the crease of a vertex, the dearest last.
+/// Appends places away from the crease of a vertex, the costliest last.
 void addPlacesOffCrease(const SuspectVertex& v, const Mat3d& M, std::vector<Vec3f>& places) {
   const Vec3d way = vecCast<double>(v.safe - v.place);
   for (const float step : kWithin)
@@ -69,7 +69,7 @@ void addPlacesOffCrease(const SuspectVertex& v, const Mat3d& M, std::vector<Vec3
 
 /// The best place found for a vertex.
 struct Found {
-  std::size_t conflicts = 0;  ///< That its faces have there.
+  std::size_t conflicts = 0;  ///< How many its faces have there.
   std::size_t tried = 0;      ///< How many had been tried before; 0: it is where the vertex is.
   Vec3f place{};
 };
@@ -85,7 +85,7 @@ Found findPlace(const FaceLocator& locator, const FaceTests& faces, const Vertex
   Found best{trial.countConflicts(0, kMostConflicts + 1)};
   if (best.conflicts == vertex.unresolvedConflicts || best.conflicts > kMostConflicts) return best;
   for (std::size_t i = 1; i < places.size() && best.conflicts > 0; ++i) {
-    if (!trial.finds(i)) continue;
+    if (!trial.withinReach(i)) continue;
     const std::size_t conflicts = trial.countConflicts(i, best.conflicts);
     if (conflicts < best.conflicts) best = {conflicts, i, places[i]};
   }
@@ -120,11 +120,11 @@ Vec3f findBetterPlace(const FaceLocator& locator, const FaceTests& faces, const 
   world.push_back(faces.worldPosition(vertex, vertex.place));
   VertexTrial trial(locator, faces, vertex, world);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (trial.finds(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
+    if (trial.withinReach(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
   return vertex.place;
 }
 
-/// Whether the crease turns by more than 41°. Being drawn off a flatter one costs little.
+/// Whether the crease turns by more than 41°. Moving off a flatter one costs little.
 bool isSharp(const SuspectVertex& v) {
   const auto& n = v.creaseNormals;
   for (std::size_t i = 1; i < n.size() && n[i] != Vec3f{}; ++i)

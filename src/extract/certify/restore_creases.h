@@ -6,7 +6,7 @@
 namespace pdc::detail {
 
 /// Moves suspect vertices on creases back towards where they are wanted, as far as their faces then have no conflict,
-/// now that all others have come to rest. Those that bring each other conflicts return to where they were.
+/// now that no other vertex moves any more. Those that bring each other conflicts return to where they were.
 /// \throws Cancelled.
 void restoreCreases(WorkingMesh& mesh, NearFaces& near);
 

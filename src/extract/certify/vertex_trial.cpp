@@ -38,13 +38,13 @@ VertexTrial::VertexTrial(const FaceLocator& locator, const FaceTests& faces, con
     all.add(Float4Box(faces.corners(faces.edgeCells().vertices(e))));
   });
   addFaces(all);
-  findSheets();
+  computeSides();
   mOrder.resize(mPieces.size());
   std::iota(mOrder.begin(), mOrder.end(), std::size_t{0});
   for (OwnTriangle& own : mOwn) addNear(own, ofPlaces);
 }
 
-/// The faces that may reach into a box.
+/// Adds the faces that may reach into a box.
 void VertexTrial::addFaces(const Float4Box& box) {
   std::vector<EdgeRef> edges;
   mLocator.facesAbout(mLocator.latticeBox(box), edges);
@@ -84,7 +84,7 @@ void VertexTrial::addOwn(const EdgeRef& e, std::span<const Triangle> triangles) 
   }
 }
 
-void VertexTrial::findSheets() {
+void VertexTrial::computeSides() {
   std::vector<Points> points;
   const auto add = [&points](std::size_t n, auto&& position) {
     const std::size_t column = 4 * points.size();
@@ -138,7 +138,7 @@ inline void VertexTrial::move(const OwnPiece& piece, std::size_t place) {
   }
 }
 
-bool VertexTrial::finds(std::size_t place) const {
+bool VertexTrial::withinReach(std::size_t place) const {
   const Vec3d p = mLocator.latticePosition(mPlaces[place]);
   return std::all_of(mReach.begin(), mReach.end(),
                      [&](const Reach& r) { return FaceLocator::distance(r.low, p) <= r.most; });
@@ -161,12 +161,12 @@ std::size_t VertexTrial::countConflicts(std::size_t place, std::size_t most) {
   return count;
 }
 
-/// Conflicts of the piece that is the i-th in order, with the fixed triangles and the pieces before it.
+/// Counts the conflicts of the piece that is the i-th in order with the fixed triangles and the pieces before it.
 inline std::size_t VertexTrial::countPiece(std::size_t i, std::size_t most) {
   const OwnPiece& piece = mPieces[mOrder[i]];
   const std::span<OwnTriangle> own = triangles(piece);
   for (OwnTriangle& t : own)
-    // What it meets then is of no matter.
+    // What it meets does not matter then.
     if (!facesForward(piece, t)) return 1;
   std::size_t count = 0;
   if (own.size() == 2) count += trianglesIntersect(own[0], own[1]);

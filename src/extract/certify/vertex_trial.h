@@ -11,15 +11,15 @@
 
 namespace pdc::detail {
 
-/// What the faces of a vertex would meet if the vertex were elsewhere. For affine maps.
+/// Counts what the faces of a vertex would meet if the vertex were elsewhere. For affine maps.
 class VertexTrial {
  public:
   /// \param places in world space, the vertex's own among them; must outlive this.
   VertexTrial(const FaceLocator& locator, const FaceTests& faces, const SuspectVertex& vertex,
               std::span<const Vec3f> places);
 
-  /// Whether the tests of other faces would find those of the vertex at one of the places.
-  [[nodiscard]] bool finds(std::size_t place) const;
+  /// Whether the tests of other faces would still find the faces of the vertex at one of the places.
+  [[nodiscard]] bool withinReach(std::size_t place) const;
   /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`. A face with a
   /// triangle that faces backwards counts as one; what else that triangle meets counts or not, by the order of faces,
   /// which earlier counts change.
@@ -33,17 +33,17 @@ class VertexTrial {
   };
   /// A triangle of a face of the vertex.
   struct OwnTriangle : FilteredTriangle {
-    int moving;                          ///< Which corner is the vertex; -1: none, and the answers stay the same.
+    int moving;                          ///< Which corner is the vertex; -1: none, so that its counts stay the same.
     std::array<std::uint32_t, 3> point;  ///< Columns of mSides that the corners have.
-    std::size_t firstNear, endNear;      ///< In mNear; those met last first.
+    std::size_t firstNear, endNear;      ///< The range in mNear; those met last come first.
     std::optional<bool> forward;
     std::optional<std::size_t> nearCount;
   };
   /// A quad, or one triangle of a fan.
   struct OwnPiece {
     Vec3d forward;              ///< The way the surface passes its edge.
-    std::size_t first, count;   ///< Triangles, in mOwn.
-    std::size_t conflicts = 0;  ///< When last counted.
+    std::size_t first, count;   ///< The range of its triangles in mOwn.
+    std::size_t conflicts = 0;  ///< How many it had when last counted.
   };
   /// A face of the vertex, and how far it may reach from the low end of its edge.
   struct Reach {
@@ -53,7 +53,7 @@ class VertexTrial {
 
   void addFaces(const Float4Box& box);
   void addOwn(const EdgeRef& e, std::span<const Triangle> triangles);
-  void findSheets();
+  void computeSides();
   void addNear(OwnTriangle& own, const Float4Box& places);
   void move(const OwnPiece& piece, std::size_t place);
   [[nodiscard]] bool facesForward(const OwnPiece& piece, OwnTriangle& own) const;
@@ -69,14 +69,14 @@ class VertexTrial {
   std::vector<Reach> mReach;
   std::vector<OwnTriangle> mOwn;
   std::vector<OwnPiece> mPieces;
-  std::vector<std::size_t> mOrder;  ///< In which those are counted.
+  std::vector<std::size_t> mOrder;  ///< The order in which pieces are counted.
   std::vector<std::uint32_t> mRim;  ///< The other vertices of mOwn.
   std::vector<FilteredTriangle> mFixed;
   std::vector<NearTriangle> mNear;
   /// By triangle of mFixed, where the places and then the rim's vertices are to its plane.
   std::vector<Sides> mSides;
-  std::size_t mColumns = 0;      ///< Of mSides, for each of the triangles.
-  std::vector<Sides> mOfPlaces;  ///< By triangle of mFixed: of all places together.
+  std::size_t mColumns = 0;      ///< Columns of mSides; each triangle has a row.
+  std::vector<Sides> mOfPlaces;  ///< By triangle of mFixed, the sides of all places together.
 };
 
 }  // namespace pdc::detail

@@ -10,7 +10,7 @@
 
 namespace pdc::detail {
 
-/// What is asked of single faces, decided exactly on the mesh's coordinates.
+/// Tests of single faces, decided exactly on the mesh's coordinates.
 class FaceTests {
  public:
   FaceTests(const LatticeMap& map, const EdgeCells& edgeCells, const Fans& fans, SuspectIndex suspectIndex,
@@ -22,7 +22,8 @@ class FaceTests {
         mSuspects(suspects),
         mMesh(mesh) {}
 
-  /// Whether the lattice edge passes through the planes of both of the quad's triangles, from behind to before.
+  /// Whether the lattice edge passes through the planes of both of the quad's triangles, from their backs to their
+  /// fronts.
   [[nodiscard]] bool passes(const EdgeRef& e, const Quad& quad) const;
   /// Whether the triangle has an area and looks the way the surface passes the lattice edge; or, where a corner lies on
   /// a crease, the way one of the planes looks that meet there: beside a sharp crease a triangle of one side may stand

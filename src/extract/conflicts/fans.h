@@ -71,7 +71,7 @@ class Fans {
   std::map<EdgeRef, std::uint32_t> mCenter;
   std::set<Cell> mSplit;
   std::map<Segment, std::uint32_t> mFaceVertex;
-  std::unique_ptr<Crossings> mCrossings;  ///< Of the block last asked for.
+  std::unique_ptr<Crossings> mCrossings;  ///< Those of the block last asked for.
 };
 
 }  // namespace pdc::detail

@@ -9,7 +9,7 @@
 
 namespace pdc::detail {
 
-// Quick looks that tell most pairs of triangles apart before the exact test.
+// Quick tests that tell most pairs of triangles apart before the exact test.
 
 /// On which sides of a plane some points are.
 struct Sides {
@@ -19,13 +19,13 @@ struct Sides {
   friend Sides operator&(Sides a, std::uint8_t mask) { return {static_cast<std::uint8_t>(a.bits & mask)}; }
   /// Whether all are on one side for certain.
   [[nodiscard]] bool same() const { return bits == 1 || bits == 2; }
-  /// Of a single point, as orient3d has it; 0 if it is not known, or there is none.
+  /// The side of a single point, as orient3d gives it; 0 if it is not known, or there is no point.
   [[nodiscard]] int sign() const { return (bits & 1) - (bits >> 1 & 1); }
 };
 
 inline Sides all(const std::array<Sides, 4>& s) { return s[0] | s[1] | s[2] | s[3]; }
 inline Sides all(const std::array<Sides, 3>& s) { return s[0] | s[1] | s[2]; }
-/// Of the first three.
+/// The signs of the first three.
 template <std::size_t n>
 TriangleSides::Signs signs(const std::array<Sides, n>& s) {
   return {s[0].sign(), s[1].sign(), s[2].sign()};
@@ -44,7 +44,7 @@ struct Points {
 };
 inline Quad quadOf(const Triangle& t) { return {t[0], t[1], t[2], t[2]}; }
 
-/// The plane of a triangle, for a quick look at what lies to one side of it.
+/// The plane of a triangle, for a quick test of what lies to one side of it.
 class TrianglePlane {
  public:
   TrianglePlane(const Triangle& vertices, const TriangleCorners& corners)
@@ -101,7 +101,7 @@ class TrianglePlane {
   double mErrorBound;
 };
 
-/// A triangle of a mesh with what the quick looks need to know of it.
+/// A triangle of a mesh with what the quick tests need to know of it.
 struct FilteredTriangle {
   FilteredTriangle(const Triangle& v, const TriangleCorners& c)
       : vertices(v), corners(c), points(c), plane(v, c), box(c) {}
@@ -113,7 +113,7 @@ struct FilteredTriangle {
   Float4Box box;
 };
 
-/// trianglesIntersect() for those.
+/// Does what trianglesIntersect() does for plain triangles.
 [[nodiscard]] inline bool trianglesIntersect(const FilteredTriangle& a, const FilteredTriangle& b) {
   if (a.box.apartFrom(b.box)) return false;
   const std::array<Sides, 4> bSides = a.plane.sides(quadOf(b.vertices), b.points);

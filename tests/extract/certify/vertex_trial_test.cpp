@@ -102,8 +102,8 @@ TEST(VertexTrial, FindsPlacesWithinReachOfItsFaces) {
   for (const VertexState& v : input.working.vertices()) {
     const std::vector<Vec3f> places{input.mesh.positions[v.vertex], faces.worldPosition(v, {9, 0, 0})};
     const VertexTrial trial(near.locator(), faces, v, places);
-    EXPECT_TRUE(trial.finds(0));
-    EXPECT_FALSE(trial.finds(1));
+    EXPECT_TRUE(trial.withinReach(0));
+    EXPECT_FALSE(trial.withinReach(1));
   }
 }
 
