@@ -7,8 +7,8 @@
 #include <random>
 
 #include "extract/certify/brute_force.h"
-#include "extract/certify/simd_levels.h"
 #include "extract/certify/uncertified_mesh.h"
+#include "simd_levels.h"
 
 namespace pdc::detail {
 namespace {
@@ -50,7 +50,7 @@ TEST(NearFaces, FindWhatBruteForceFinds) {
   std::mt19937 random(1);
   const SignSource noisy = randomGrid(random, 7, false), noisyCreases = randomGrid(random, 7, true);
   const FieldSource creased = creasedSolid(24);
-  for (const SimdLevel level : availableSimdLevels()) {
+  for (const SimdLevel level : test::simdLevels()) {
     EXPECT_GT(compareWithBruteForce(noisy, 0.02, level), 100U);
     EXPECT_GT(compareWithBruteForce(noisyCreases, 0.02, level), 100U);
     EXPECT_GT(compareWithBruteForce(creased, 0, level), 10U);

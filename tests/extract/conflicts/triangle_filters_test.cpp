@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "extract/certify/simd_levels.h"
 #include "math/lane_loops.h"
 #include "pdc/math/predicates.h"
+#include "simd_levels.h"
 
 namespace pdc::detail {
 namespace {
@@ -32,7 +32,7 @@ struct RandomPoints {
 TEST(TriangleFilters, CertainSidesAreThoseOfThePredicate) {
   RandomPoints point;
   int certain = 0, inPlane = 0;
-  const std::vector<SimdLevel> levels = availableSimdLevels();
+  const std::vector<SimdLevel> levels = test::simdLevels();
   for (int round = 0; round < 20000; ++round) {
     const TriangleCorners t = point.triangle();
     const std::array<Vec3f, 4> corners{point(), point(), point(), point()};
