@@ -26,8 +26,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 ///
 /// - std::invalid_argument for arrays that do not fit together: normals, or a property's numbers, that are not one for
 ///   each vertex; a property without a name, with another's name, or with less than 1 or more than 4 components;
-///   polygons whose starts do not begin at 0 and ascend by three corners at least. Also for polygons where a function
-///   knows triangles and quads only: it says so by not mentioning them;
+///   polygons whose starts do not begin at 0 and ascend by three corners at least. Also for polygons, unless the
+///   function's description speaks of them;
 /// - Error for a face that names a vertex that does not exist.
 ///
 /// Coordinates may be NaN or infinite and faces may name a vertex twice: each function says what it makes of those.
