@@ -5,7 +5,7 @@ cd "$1"
 
 # The brackets keep this file from finding itself.
 readonly forbidden='(^|[^[:alnum:]_.~-])/(wor[k]|roo[t]|hom[e]|User[s]|tm[p]/build)(/|$|[^[:alnum:]_-])'
-found=$(grep -rIlE "$forbidden" --exclude-dir=.git --exclude-dir=build --exclude-dir=out . || true)
+found=$(grep -rIlE "$forbidden" --exclude-dir=.git --exclude=.git --exclude-dir=build --exclude-dir=out . || true)
 if [[ -n "$found" ]]; then
   echo "absolute paths of a machine in:"
   grep -nE "$forbidden" $found

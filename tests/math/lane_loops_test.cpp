@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "math/float_lanes.h"
+#include "simd_levels.h"
 
 namespace pdc::detail {
 namespace {
 
-constexpr SimdLevel kLevels[] = {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512};
-
 TEST(LaneLoops, VisitEveryBatchAndLaneOnceAtEveryLevel) {
-  for (const SimdLevel level : kLevels) {
+  for (const SimdLevel level : test::simdLevels()) {
     std::vector<std::array<int, kLanes>> visits(5);
     forEachBatch(level, visits.size(), [&](std::size_t i) { forEachLane([&](int lane) { ++visits[i][lane]; }); });
     for (const auto& batch : visits)

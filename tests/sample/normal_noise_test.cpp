@@ -33,7 +33,8 @@ TEST(NormalNoise, GrowsWithTheNoiseOfTheValues) {
 TEST(NormalNoise, StopEndsItWithinABlock) {
   std::atomic<bool> stop = false;
   std::atomic<int> blocks = 0;
-  const FieldSource source = sourceOf(box({0, 0, 0}, {1, 1, 0.5}));
+  // Thousands of blocks, so that a thread's share of them is many.
+  const FieldSource source(box({0, 0, 0}, {1, 1, 0.5}), {.box = test::kDrilledBoxBounds, .voxelSize = 0.01});
   const test::WatchedSource watched(source, {.hermite = [&] {
                                       ++blocks;
                                       stop = true;

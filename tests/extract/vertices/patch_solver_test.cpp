@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -55,8 +56,8 @@ class Patches {
 
 constexpr double kVoxel = 0.1;
 
-FieldSource sourceOf(FieldPtr field) {
-  return FieldSource(std::move(field), {.box = {{-1, -1, -1}, {1, 1, 1}}, .voxelSize = kVoxel});
+FieldSource sourceOf(FieldPtr field, double voxelSize = kVoxel) {
+  return FieldSource(std::move(field), {.box = {{-1, -1, -1}, {1, 1, 1}}, .voxelSize = voxelSize});
 }
 
 TEST(PatchSolver, LoadsTheCrossingsOfThePatch) {
@@ -97,7 +98,8 @@ TEST(PatchSolver, VerticesOnTheWallAreSnappedIntoTheCell) {
 TEST(PatchSolver, FlatPatchesNeverLeaveTheirCells) {
   const FieldSource source = sourceOf(plane({0.01, 0.02, 0.005}, {1, 2, 3}));
   std::size_t moved = 0;
-  Patches(source).forEach([&](const PatchSolver& solver, const Vec3d&, const CellMetric& metric) {
+  Patches(source).forEach([&](const PatchSolver& solver, const Vec3d& center, const CellMetric& metric) {
+    if (std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)}) > 0.85) return;  // The box cuts it off.
     const SolvedVertex v = solver.solve(metric);
     Vec3d along = cross(Vec3d{1, 2, 3}, Vec3d{0, 0, 1});
     along *= 1.5 / length(along);
@@ -107,12 +109,12 @@ TEST(PatchSolver, FlatPatchesNeverLeaveTheirCells) {
     ASSERT_LT(planeError(solver.samples(), vecCast<double>(placed.place)), 1e-6);
     ++moved;
   });
-  EXPECT_GT(moved, 300u);
+  EXPECT_GT(moved, 200u);
 }
 
 // Beside a sharp edge the free place is on the crease and far nearer to both planes than any in the cell.
 TEST(PatchSolver, VerticesOnCreasesOutsideTheirCellsAreSuspectAndKnowTheirSheets) {
-  const FieldSource source = sourceOf(rotate(box({}, {0.55, 0.5, 0.45}), {1, 2, 3}, 25));
+  const FieldSource source = sourceOf(rotate(box({}, {0.55, 0.5, 0.45}), {1, 2, 3}, 25), kVoxel / 4);
   std::size_t suspect = 0, creased = 0;
   Patches(source, 0.01).forEach([&](const PatchSolver& solver, const Vec3d&, const CellMetric& metric) {
     const SolvedVertex v = solver.solve(metric);

@@ -6,6 +6,8 @@
 #include <memory>
 #include <random>
 
+#include "simd_levels.h"
+
 namespace pdc::detail {
 namespace {
 
@@ -103,7 +105,7 @@ void expectPlainSlopesAndOctants(unsigned seed, SimdLevel level, Counts& counts)
 TEST(VoxelRow, OctantsAreThoseThatAPlainLoopFinds) {
   Counts counts;
   for (unsigned seed = 0; seed < 20; ++seed)
-    for (const SimdLevel level : {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    for (const SimdLevel level : test::simdLevels()) {
       SCOPED_TRACE(seed);
       expectPlainSlopesAndOctants<kLanes>(seed, level, counts);
       expectPlainSlopesAndOctants<kLanes / 2>(seed, level, counts);
