@@ -6,7 +6,8 @@
 namespace pdc {
 
 /// A file, a scene or a request that cannot be served. The message is one line: what, the offending value, the limit.
-/// Thrown before parallel work starts; a caller's mistake in code throws std::invalid_argument instead.
+/// Thrown before parallel work starts wherever that can be known; a caller's mistake in code throws
+/// std::invalid_argument instead.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

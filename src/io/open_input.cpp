@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/file/suffix.h"
 #include "pdc/error.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
@@ -13,13 +14,6 @@ namespace pdc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lowerCaseSuffix(const fs::path& path) {
-  std::string suffix = path.extension().string();
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return suffix;
-}
 
 void refuseOther(bool given, const fs::path& path, const char* option, const char* takers) {
   if (given) throw Error(fmt::format("'{}': {} goes with {} only", path.string(), option, takers));
@@ -108,7 +102,7 @@ Input openScene(const fs::path& path, const InputOptions& options) {
 }  // namespace
 
 InputKind inputKind(const fs::path& path) {
-  const std::string suffix = lowerCaseSuffix(path);
+  const std::string suffix = detail::suffixOf(path);
   if (suffix == ".vdb") return InputKind::kGrid;
   if (suffix == ".yaml" || suffix == ".yml") return InputKind::kScene;
   return InputKind::kOther;

@@ -28,7 +28,7 @@ inline constexpr auto kCellEdge = [] {
     const Axis axis = kAxes[e / 4];
     std::array<int, 3> low{};
     low[nextAxis(axis)] = e & 1;
-    low[lastAxis(axis)] = e >> 1 & 1;
+    low[previousAxis(axis)] = e >> 1 & 1;
     const int corner = low[0] + 2 * low[1] + 4 * low[2];
     edges[e] = {axis, corner, corner | 1 << axis, EdgeIndex::slot(axis, low[0], low[1], low[2])};
   }

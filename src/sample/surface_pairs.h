@@ -42,7 +42,7 @@ void forEachSurfaceSquare(const HermiteSource& source, const Coord& block, const
     for (int y = 0; y < kBlockSize; ++y)
       for (int z = 0; z < kBlockSize; ++z)
         for (const Axis normal : kAxes) {
-          const Axis u = nextAxis(normal), v = lastAxis(normal);
+          const Axis u = nextAxis(normal), v = previousAxis(normal);
           const Coord low{x, y, z};
           Coord beyondU = low, beyondV = low;
           ++beyondU[u];

@@ -8,7 +8,7 @@
 namespace pdc::detail {
 namespace {
 
-/// Curves whose ends differ by less than this share do not tell their values apart.
+/// Where the largest and the smallest error differ by less than this share of the largest, the values are alike.
 constexpr double kFlat = 0.05;
 
 /// Where a σn lies on a logarithmic scale from 0.01 to 1: factors tell values of σn apart, not differences.
@@ -23,7 +23,7 @@ std::optional<double> trueError(const SweepStep& step) {
 
 void recommendSigma(Sweep& sweep) {
   const auto& steps = sweep.steps;
-  const bool known = trueError(steps.front()).has_value();
+  const bool known = std::all_of(steps.begin(), steps.end(), [](const auto& s) { return trueError(s).has_value(); });
   // Without a truth the noise found in the normals is all there is to go by.
   const auto cost = [&](const SweepStep& s) {
     return known ? *trueError(s) : std::abs(place(s.value) - place(sweep.normalNoise));

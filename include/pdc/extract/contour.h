@@ -11,9 +11,10 @@ namespace pdc {
 
 /// Where a vertex may lie.
 enum class Placement {
-  kCertified,  ///< As kFree, and drawn back towards its cell where faces would intersect.
-  kCell,       ///< In its own cell: the minimiser of the quadric over the cell.
-  kFree,       ///< Anywhere within 1.5 voxels of its cell; faces may intersect.
+  kCertified,  ///< In its cell where that fits its planes nearly as well, else as kFree; drawn back where faces
+               ///< intersect.
+  kCell,       ///< In its own cell: the minimiser of the quadric over the cell, moved where faces would intersect.
+  kFree,       ///< Within 1.5 steps of the lattice of its cell along each axis; faces may intersect.
 };
 
 /// σn where nothing else is said.
@@ -39,7 +40,7 @@ struct ContourOptions {
   bool confidence = false;
   /// Also the rank of each vertex as the property "rank", uint8, 1 on flat parts, 2 on edges, 3 at corners: the number
   /// of eigenvalues of the sum of its planes' nnᵀ that exceed 1/20 of the trace, so that planes at 26° or more count as
-  /// two.
+  /// two. Vertices that certifying added have rank 1.
   bool ranks = false;
   /// Also ContourReport::quadrics. Costs about as much again as contouring, and 40 bytes per vertex.
   bool quadrics = false;
@@ -82,11 +83,11 @@ struct ContourReport {
 ///
 /// With kCertified and kCell and an affine map also: the triangles, quads being split as Mesh says, do not intersect
 /// each other in the single-precision coordinates given, and none faces backwards: along its lattice edge or, beside a
-/// crease, along all planes that meet there. In the rare places where four vertices allow no such quad, triangles about
-/// an additional vertex on the lattice edge take its place. `uncertified` is 0 then. Not guaranteed for kFree, for maps
-/// that are not affine, where an open source's surface ends within a cell in several pieces, and beyond about 2^20
-/// voxels from the origin, where single precision cannot tell a cell's walls apart; there `uncertified` counts what is
-/// left.
+/// crease, within 60° of one of the planes that meet there. In the rare places where four vertices allow no such quad,
+/// triangles about an additional vertex on the lattice edge take its place. `uncertified` is 0 then. Not guaranteed for
+/// kFree, for maps that are not affine, where an open source's surface ends within a cell in several pieces, and beyond
+/// about 2^20 voxels from the origin, where single precision cannot tell a cell's walls apart; there `uncertified`
+/// counts what is left.
 ///
 /// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, for quadrics without a report
 /// to put them into, and for a source whose blocks are not sorted or not closed under continuation; Error if the mesh

@@ -21,8 +21,8 @@ struct SurfacePatch {
 /// What a source knows of some patches of a block beyond their crossings: planes that take the place of the crossings'
 /// own where those cannot be trusted, as beside a crease.
 struct FeaturePlanes {
-  /// A plane in lattice units from the block's origin: |row · (x − point)| is the distance from it in voxels, measured
-  /// in world space, times the square root of the plane's weight.
+  /// A plane in lattice units from the block's origin: row · (x − point) is the distance from it in voxels, measured in
+  /// world space, positive outside, times the square root of the plane's weight, in (0, 1].
   struct Plane {
     Vec3f point, row;
   };

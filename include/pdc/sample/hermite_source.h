@@ -55,9 +55,10 @@ class HermiteSource {
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;
 
+  /// The same for the source's whole life.
   [[nodiscard]] virtual SourceKnowledge knowledge() const { return {}; }
 
-  /// Fills crossings and normals of one block. Does not allocate.
+  /// Fills crossings and normals of a block of surfaceBlocks(). Does not allocate.
   virtual void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const = 0;
 
   /// Fills what is known of the noise of each crossing in `hermite`, which was filled before. Does not allocate. Called

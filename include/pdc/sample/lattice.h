@@ -11,9 +11,9 @@ namespace pdc {
 enum Axis : int { kAxisX, kAxisY, kAxisZ };
 inline constexpr std::array kAxes{kAxisX, kAxisY, kAxisZ};
 
-/// The two axes across `axis`, so that the three are right-handed: the next one, x after z, and the one after.
+/// The cyclic successor and predecessor of an axis: with it they are right-handed, (axis, next, previous).
 constexpr Axis nextAxis(Axis axis) { return static_cast<Axis>((axis + 1) % 3); }
-constexpr Axis lastAxis(Axis axis) { return static_cast<Axis>((axis + 2) % 3); }
+constexpr Axis previousAxis(Axis axis) { return static_cast<Axis>((axis + 2) % 3); }
 
 inline constexpr int kBlockSize = 8;                 ///< Cells per block and axis.
 inline constexpr int kBlockPoints = kBlockSize + 1;  ///< Lattice points per block and axis.

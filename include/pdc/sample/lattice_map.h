@@ -15,7 +15,9 @@ class LatticeMap {
 
   /// x_world = linear · x + translation. \throws Error if `linear` is singular or not finite.
   LatticeMap(const Mat3d& linear, const Vec3d& translation);
-  /// A map that is not affine. The determinant of the Jacobian must keep its sign, which is taken at `somewhere`.
+  /// A map that is not affine. Both functions are called from many threads at once. The determinant of the Jacobian
+  /// must keep its sign, which is taken at `somewhere`. \throws std::invalid_argument if a function is missing; Error
+  /// if the Jacobian is singular or not finite there.
   LatticeMap(PositionFunction position, JacobianFunction jacobian, const Vec3d& somewhere);
 
   [[nodiscard]] bool affine() const { return !mPosition; }
@@ -24,7 +26,7 @@ class LatticeMap {
   [[nodiscard]] Mat3d jacobian(const Vec3d& x) const { return affine() ? mLinear : mJacobian(x); }
   /// True if the map turns right-handed frames into left-handed ones, so that faces must be wound the other way.
   [[nodiscard]] bool mirrored() const { return mMirrored; }
-  /// Cube root of the volume of a voxel (for a frustum: at the place given), in world units.
+  /// Cube root of the volume of a voxel (for a map that is not affine: at `somewhere`), in world units.
   [[nodiscard]] double voxelSize() const { return mVoxelSize; }
 
  private:

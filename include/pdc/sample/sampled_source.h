@@ -9,8 +9,9 @@ namespace pdc {
 /// Another source's blocks and Hermite data, sampled once and kept: whoever contours it several times, with different
 /// options, samples once. Meshes are the same, byte for byte, as those of the source itself.
 ///
-/// Takes 16 bytes per crossing and block that sees it, about 2 kB per block. A block's data is found by its coordinate.
-/// The source must live as long: planes beyond the crossings and their noise are asked of it each time.
+/// Takes 16 bytes per crossing and block that sees it, about 2 kB per block. A block's data is found by its coordinate:
+/// only blocks of its own surfaceBlocks() may be asked for. The source must live as long: planes beyond the crossings
+/// and their noise are asked of it each time.
 class SampledSource final : public HermiteSource {
  public:
   /// Runs in parallel on the calling thread's arena. \throws Cancelled, whatever the source throws.

@@ -26,12 +26,12 @@ float volumeErrorBound(const LatticeMap& map, const Coord& block) {
 /// function of a SimdLevel.
 class BlockFaceWriter::Block {
  public:
-  Block(const BlockFaceWriter& writer, std::size_t block, const VertexErrors& errors, Suspects* suspects)
+  Block(const BlockFaceWriter& writer, std::size_t block, const PlacedQuadrics& quadrics, Suspects* suspects)
       : mWriter(writer),
         mOwn(writer.mTopology.blocks[block]),
         mBlock(block),
         mVertices(writer.mTopology, mOwn),
-        mErrors(errors),
+        mQuadrics(quadrics),
         mSuspects(suspects),
         mQuads(writer.mQuads + mOwn.firstQuad),
         mErrorBound(suspects != nullptr ? volumeErrorBound(writer.mMap, writer.mBlocks.coords[block]) : 0.0F) {}
@@ -69,7 +69,7 @@ class BlockFaceWriter::Block {
 
   template <Axis axis>
   void findVertices() {
-    constexpr int kStepU = CellVertices::kStep[nextAxis(axis)], kStepV = CellVertices::kStep[lastAxis(axis)];
+    constexpr int kStepU = CellVertices::kStep[nextAxis(axis)], kStepV = CellVertices::kStep[previousAxis(axis)];
     for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
       const std::uint32_t* at = mVertices.at({static_cast<std::uint16_t>(mEdge[i] % kBlockCells)});
       for (int k = 0; k < 4; ++k)
@@ -85,10 +85,11 @@ class BlockFaceWriter::Block {
       std::uint32_t* const vertex = &mVertex[k][first];
       std::fill(vertex + used, vertex + kLanes, vertex[0]);
       alignas(64) std::uint32_t place[kLanes];
-      forEachLane([&place, vertex, index = mErrors.index()](int i) { place[i] = index.place(vertex[i]); });
-      const VertexError* errors = mErrors.data();
+      forEachLane([&place, vertex, index = mQuadrics.index()](int i) { place[i] = index.place(vertex[i]); });
+      const PlacedQuadric* quadrics = mQuadrics.data();
       for (int i = 0; i < kLanes; i += 4)
-        mLanes.set(k, i, {errors + place[i], errors + place[i + 1], errors + place[i + 2], errors + place[i + 3]});
+        mLanes.set(k, i,
+                   {quadrics + place[i], quadrics + place[i + 1], quadrics + place[i + 2], quadrics + place[i + 3]});
     }
     for (int i = 0; i < kLanes; ++i) mLanes.axis[i] = mEdge[first + i] / kBlockCells;
     chooseDiagonals(mLanes);
@@ -135,7 +136,7 @@ class BlockFaceWriter::Block {
   const BlockTopology& mOwn;
   const std::size_t mBlock;
   const CellVertices mVertices;
-  const VertexErrors& mErrors;
+  const PlacedQuadrics& mQuadrics;
   Suspects* const mSuspects;
   Quad* const mQuads;
   const float mErrorBound;
@@ -146,8 +147,8 @@ class BlockFaceWriter::Block {
   std::array<std::array<std::uint32_t, kMostQuads + kLanes>, 4> mVertex;
 };
 
-void BlockFaceWriter::run(std::size_t block, const VertexErrors& errors, Suspects* suspects) const {
-  withSimd(mLevel, [&] { Block(*this, block, errors, suspects).run(); });
+void BlockFaceWriter::run(std::size_t block, const PlacedQuadrics& quadrics, Suspects* suspects) const {
+  withSimd(mLevel, [&] { Block(*this, block, quadrics, suspects).run(); });
 }
 
 }  // namespace pdc::detail

@@ -4,7 +4,7 @@
 
 #include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
-#include "extract/vertices/vertex_errors.h"
+#include "extract/vertices/placed_quadrics.h"
 #include "pdc/math/simd_level.h"
 #include "pdc/mesh/mesh.h"
 
@@ -25,7 +25,7 @@ class BlockFaceWriter {
 
   /// \param suspects null, or where quads go whose triangles may not both pass between the ends of their lattice edge.
   /// Such a quad is split along the other diagonal if that one passes.
-  void run(std::size_t block, const VertexErrors& errors, Suspects* suspects) const;
+  void run(std::size_t block, const PlacedQuadrics& quadrics, Suspects* suspects) const;
 
  private:
   class Block;

@@ -60,8 +60,8 @@ class MeshFiller {
         mMonitor(monitor),
         mNoteSuspects(noteSuspects),
         mEnds(slabRunEnds(surface.blocks.coords)),
-        mErrors(longestRun(surface.topology, mEnds)),
-        mOut{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &mErrors, nullptr},
+        mQuadrics(longestRun(surface.topology, mEnds)),
+        mOut{mesh.positions.data(), options.normals ? mesh.normals.data() : nullptr, &mQuadrics, nullptr},
         mFaces(surface, mesh.quads.data(), options.level),
         mSolvers([&surface, &options] {
           return BlockVertexSolver(surface.source, options.sigma, options.halfSize, options.level);
@@ -71,7 +71,8 @@ class MeshFiller {
   VertexCounts run() {
     std::size_t previous = 0, begin = 0;
     for (const std::size_t end : mEnds) {
-      mErrors.moveOn(mSurface.topology.blocks[previous].firstVertex);  // Faces reach back into the run of slabs before.
+      mQuadrics.moveOn(
+          mSurface.topology.blocks[previous].firstVertex);  // Faces reach back into the run of slabs before.
       fillSlabRun(begin, end);
       previous = begin;
       begin = end;
@@ -100,7 +101,7 @@ class MeshFiller {
     });
     FacelessBlocks rest;
     for (const FacelessBlocks& some : waiting) rest.insert(rest.end(), some.begin(), some.end());
-    tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { mFaces.run(rest[i], mErrors, suspects()); });
+    tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { mFaces.run(rest[i], mQuadrics, suspects()); });
   }
 
   /// Solves a group's vertices and writes the faces of those blocks, of it and of `faceless`, whose vertices are all
@@ -117,7 +118,7 @@ class MeshFiller {
     groups.setSolved(range.group);
     std::erase_if(faceless, [&](std::size_t i) {
       const bool ready = groups.hasItsVertices(i);
-      if (ready) mFaces.run(i, mErrors, out.suspects);
+      if (ready) mFaces.run(i, mQuadrics, out.suspects);
       return ready;
     });
     mProgress.advance(range.end - range.begin);
@@ -130,7 +131,7 @@ class MeshFiller {
   const Monitor& mMonitor;
   const bool mNoteSuspects;
   const std::vector<std::size_t> mEnds;  ///< Where runs of slabs end.
-  VertexErrors mErrors;
+  PlacedQuadrics mQuadrics;
   const VertexOutput mOut;
   const BlockFaceWriter mFaces;
   tbb::enumerable_thread_specific<BlockVertexSolver> mSolvers;

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "extract/vertices/vertex_errors.h"
+#include "extract/vertices/placed_quadrics.h"
 #include "math/float_lanes.h"
 #include "math/lane_loops.h"
 
@@ -13,7 +13,7 @@ namespace pdc::detail {
 /// two axes (u, v) = (0, 0), (-1, 0), (-1, -1), (0, -1).
 struct QuadLanes {
   alignas(64) std::uint32_t axis[kLanes];  ///< The axis of each edge.
-  /// The members of each corner's VertexError, in order.
+  /// The members of each corner's PlacedQuadric, in order.
   alignas(64) float corner[4][12][kLanes];
   /// 1 for a diagonal from corner 0 to 2, 0 for one from 1 to 3.
   alignas(64) std::uint32_t first[kLanes];
@@ -21,22 +21,22 @@ struct QuadLanes {
   /// it is split the other way.
   alignas(64) std::uint32_t passes[kLanes];
 
-  [[nodiscard]] VertexError get(int k, int lane) const {
+  [[nodiscard]] PlacedQuadric get(int k, int lane) const {
     const auto& c = corner[k];
     return {{c[0][lane], c[1][lane], c[2][lane]},
             {c[3][lane], c[4][lane], c[5][lane], c[6][lane], c[7][lane], c[8][lane]},
             {c[9][lane], c[10][lane], c[11][lane]}};
   }
   /// Sets a corner of four lanes from `lane` on.
-  void set(int k, int lane, const std::array<const VertexError*, 4>& errors) {
-    static_assert(sizeof(VertexError) == sizeof corner[0] / kLanes);
-    const auto from = [&errors](int i, int part) { return reinterpret_cast<const float*>(errors[i]) + part; };
+  void set(int k, int lane, const std::array<const PlacedQuadric*, 4>& quadrics) {
+    static_assert(sizeof(PlacedQuadric) == sizeof corner[0] / kLanes);
+    const auto from = [&quadrics](int i, int part) { return reinterpret_cast<const float*>(quadrics[i]) + part; };
     for (int part = 0; part < 12; part += 4)
       transpose4({from(0, part), from(1, part), from(2, part), from(3, part)}, &corner[k][part][lane], kLanes);
   }
 };
 
-/// The one that belongs to an axis.
+/// The one of x, y and z that is the axis' own.
 template <typename T>
 constexpr T ofAxis(std::uint32_t axis, const T& x, const T& y, const T& z) {
   const T yz = axis == 1 ? y : z;
@@ -50,12 +50,12 @@ constexpr Vec3f ofAxis(std::uint32_t axis, const Vec3f& x, const Vec3f& y, const
 /// Must be compiled into a function of a SimdLevel.
 ///
 /// About the edge's low end that sum is mᵀSm − 2hᵀm with S = ΣAₖ and h = Σ(Aₖrₖ + bₖ), where rₖ, a corner of a cube of
-/// edge 1, is the centre of cell k. With s and t twice the middles, the errors differ by a quarter of
+/// edge 1, is the centre of cell k. With s and t twice the middles, the quadrics differ by a quarter of
 /// (s − t)ᵀ(S(s + t) − 4h). In 4h the rₖ turn into signs, and half along the axis, which all of them have and s + t has
 /// four times, drops out: vertices may be taken from the centres of their cells.
 inline void chooseDiagonals(QuadLanes& quads) {
   forEachLane([&quads](int i) {
-    const VertexError e0 = quads.get(0, i), e1 = quads.get(1, i), e2 = quads.get(2, i), e3 = quads.get(3, i);
+    const PlacedQuadric e0 = quads.get(0, i), e1 = quads.get(1, i), e2 = quads.get(2, i), e3 = quads.get(3, i);
     const SymMat3<float> p = e0.A - e2.A, q = e1.A - e3.A, S = (e0.A + e2.A) + (e1.A + e3.A), u = p - q, v = p + q;
     const Vec3f x02 = e0.x + e2.x, x13 = e1.x + e3.x, b = (e0.b + e2.b) + (e1.b + e3.b);
     // The columns of the axes that follow the edge's.

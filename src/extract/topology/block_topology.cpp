@@ -147,7 +147,7 @@ class BlockCounter {
 
   /// True if all four cells about the edge from lattice point p take part.
   bool hasQuad(Axis axis, const Coord& p) const {
-    const Axis u = nextAxis(axis), v = lastAxis(axis);
+    const Axis u = nextAxis(axis), v = previousAxis(axis);
     for (int k = 0; k < 4; ++k) {
       Coord c = p;
       c[u] -= k & 1;

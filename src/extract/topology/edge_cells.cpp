@@ -4,7 +4,7 @@ namespace pdc::detail {
 
 std::array<CellRef, 4> EdgeCells::cells(const EdgeRef& e) const {
   const BlockTopology& own = mTopology.blocks[e.block];
-  const Axis u = nextAxis(e.axis()), v = lastAxis(e.axis());
+  const Axis u = nextAxis(e.axis()), v = previousAxis(e.axis());
   std::array<CellRef, 4> ring;
   for (int k = 0; k < 4; ++k) {
     Coord c{e.x(), e.y(), e.z()};

@@ -30,7 +30,7 @@ struct BlockState {
   VertexCounts& counts;
 
   /// Whether vertices outside their cells are to be noted.
-  [[nodiscard]] bool promised() const { return out.suspects != nullptr; }
+  [[nodiscard]] bool notesSuspects() const { return out.suspects != nullptr; }
 };
 
 SymMat3<float> matrixCast(const SymMat3<double>& A) {
@@ -80,7 +80,7 @@ struct BlockVertexSolver::Scratch {
         sums.add<false>(patches, crossings, block.edges, {});
       }
       const auto inCell = static_cast<float>(block.cellHalfSize);
-      const float snapped = block.promised() ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
+      const float snapped = block.notesSuspects() ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
         lanes.setUp(patches.patches().subspan(first), sums.lanes(first), Sigma_n, sigmaOf);
@@ -89,7 +89,7 @@ struct BlockVertexSolver::Scratch {
         lanes.place(inCell, snapped);
         if (map.affine()) lanes.toWorld(linear, map.position(block.origin));
         write(block, first, used);
-        solveExceptions(block, first, used);
+        solveLeftovers(block, first, used);
       }
     }
     if (block.out.normals != nullptr)
@@ -101,33 +101,33 @@ struct BlockVertexSolver::Scratch {
     const PatchLanes& l = lanes;
     const std::uint64_t vertex = block.firstVertex + first;
     alignas(64) float positions[kLanes][4];
-    alignas(64) VertexError copy[kLanes];
-    VertexError* const whole = used == kLanes ? block.out.errors->run(vertex, kLanes) : nullptr;
-    VertexError* const errors = whole != nullptr ? whole : copy;
+    alignas(64) PlacedQuadric copy[kLanes];
+    PlacedQuadric* const whole = used == kLanes ? block.out.quadrics->run(vertex, kLanes) : nullptr;
+    PlacedQuadric* const quadrics = whole != nullptr ? whole : copy;
     for (int lane = 0; lane < kLanes; lane += 4) {
       for (int part = 0; part < 3; ++part)
-        transpose4(&l.error[4 * part][lane], kLanes, reinterpret_cast<float*>(errors + lane) + 4 * part, 12);
+        transpose4(&l.placed[4 * part][lane], kLanes, reinterpret_cast<float*>(quadrics + lane) + 4 * part, 12);
       transpose4(&l.position[0][lane], kLanes, positions[lane], 4);
     }
     if (whole == nullptr)
-      for (int lane = 0; lane < used; ++lane) (*block.out.errors)[vertex + lane] = copy[lane];
+      for (int lane = 0; lane < used; ++lane) (*block.out.quadrics)[vertex + lane] = copy[lane];
     Vec3f* position = block.out.positions + vertex;
     if (map.affine()) {
       for (int lane = 0; lane < used; ++lane)
         position[lane] = {positions[lane][0], positions[lane][1], positions[lane][2]};
     } else {
       for (int lane = 0; lane < used; ++lane)
-        position[lane] = worldPosition(block, sampler.patches()[first + lane], vecCast<double>(errors[lane].x));
+        position[lane] = worldPosition(block, sampler.patches()[first + lane], vecCast<double>(quadrics[lane].x));
     }
   }
 
   /// Solves those patches of a batch in double that single precision does not serve: unsolved ones, those whose
   /// vertices leave their bounds, those with planes of their own, and, where vertices are promised to stay apart,
   /// ambiguous ones.
-  void solveExceptions(const BlockState& block, std::size_t first, int used) {
+  void solveLeftovers(const BlockState& block, std::size_t first, int used) {
     const PatchList& patches = sampler.patches();
     const FeaturePlanes& features = sampler.features();
-    const auto limit = static_cast<float>(block.promised() ? block.cellHalfSize + kSnap : solver.halfSize());
+    const auto limit = static_cast<float>(block.notesSuspects() ? block.cellHalfSize + kSnap : solver.halfSize());
     // The lower half of a number counts the patch as an exception, the upper half as outside its cell.
     constexpr std::uint32_t kOutside = 1u << 16;
     alignas(64) std::uint32_t count[kLanes];
@@ -137,13 +137,13 @@ struct BlockVertexSolver::Scratch {
       count[i] = i < used ? (alone != 0 ? 1 : outside) : 0;
     });
     const std::uint32_t total = foldLanes(count, [](auto& a, const auto& b) { a += b; });
-    if (total % kOutside == 0 && features.patches.empty() && !(block.promised() && patches.anyAmbiguous())) {
+    if (total % kOutside == 0 && features.patches.empty() && !(block.notesSuspects() && patches.anyAmbiguous())) {
       block.counts.outOfCell += total / kOutside;
       return;
     }
     for (int lane = 0; lane < used; ++lane) {
       const std::size_t i = first + lane;
-      if (count[lane] == 1 || (block.promised() && patches.ambiguous(i)) || features.find(i) != nullptr) {
+      if (count[lane] == 1 || (block.notesSuspects() && patches.ambiguous(i)) || features.find(i) != nullptr) {
         solveAlone(block, i);
       } else {
         block.counts.outOfCell += count[lane] / kOutside;
@@ -159,7 +159,7 @@ struct BlockVertexSolver::Scratch {
     block.counts.moved += v.moved;
     const std::uint64_t vertex = block.firstVertex + i;
     Vec3f x = vecCast<float>(v.x);
-    if (block.promised()) {
+    if (block.notesSuspects()) {
       const CellPlacement placed =
           patchSolver.placeInCell(v.x, sampler.patches().ambiguous(i), block.cellHalfSize, block.metric);
       x = placed.place;
@@ -168,7 +168,7 @@ struct BlockVertexSolver::Scratch {
             {vertex, block.index, patch.cell, x, *placed.safe, patchSolver.creaseNormals(v.x, block.metric)});
     }
     block.out.positions[vertex] = worldPosition(block, patch, vecCast<double>(x));
-    (*block.out.errors)[vertex] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
+    (*block.out.quadrics)[vertex] = {x, matrixCast(v.A), vecCast<float>(v.A * v.x - v.halfGradient)};
   }
 
   [[nodiscard]] Vec3f worldPosition(const BlockState& block, const SurfacePatch& patch, const Vec3d& x) const {

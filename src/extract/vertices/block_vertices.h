@@ -5,7 +5,7 @@
 
 #include "extract/topology/surface.h"
 #include "extract/topology/suspect_vertex.h"
-#include "extract/vertices/vertex_errors.h"
+#include "extract/vertices/placed_quadrics.h"
 #include "extract/vertices/vertex_solver.h"
 #include "pdc/math/simd_level.h"
 
@@ -23,11 +23,11 @@ struct VertexCounts {
   }
 };
 
-/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and errors[i].
+/// Where solved vertices go: vertex i to positions[i], normals[i] (unless null) and quadrics[i].
 struct VertexOutput {
   Vec3f* positions;
   Vec3f* normals;
-  VertexErrors* errors;
+  PlacedQuadrics* quadrics;
   Suspects* suspects;  ///< Null: wherever a vertex comes to lie is right.
 };
 

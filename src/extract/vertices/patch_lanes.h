@@ -20,13 +20,13 @@ struct PatchLanes {
   SolutionLanes<float> step;
   Vec3Lanes<float> mass;  ///< The mass points, from the low corner of the cell.
   alignas(64) float reach[kLanes];
-  alignas(64) float error[12][kLanes];  ///< The members of VertexError.
+  alignas(64) float placed[12][kLanes];  ///< The members of PlacedQuadric, in order.
   alignas(64) float position[4][kLanes];
 
   /// Fills cells, systems and mass points. About its mass point a patch's right-hand side is small where the surface is
   /// flat, and so is what rounding does to the solution; and the noise of the normals adds to A alone (see
   /// normalNoiseQuadric()).
-  /// \param sigmaOf the patch's σn² over that in Sigma_n, from its Σrrᵀ and its weight.
+  /// \param sigmaOf the factor on Sigma_n, from the patch's Σrrᵀ and its weight; 1 where σn is the same for all.
   template <typename SigmaOf>
   void setUp(std::span<const SurfacePatch> patches, const PatchSumLanes& sum, const SymMat3<float>& Sigma_n,
              const SigmaOf& sigmaOf) {
@@ -43,7 +43,7 @@ struct PatchLanes {
     });
   }
 
-  /// Fills reach and errors from the solved steps. Vertices not farther out than `snapped` are put within `inCell`.
+  /// Fills reach and quadrics from the solved steps. Vertices not farther out than `snapped` are put within `inCell`.
   void place(float inCell, float snapped) {
     forEachLane([&](int i) {
       const Vec3f v = mass.get(i) - Vec3f{0.5F, 0.5F, 0.5F} + step.x.get(i);
@@ -55,17 +55,17 @@ struct PatchLanes {
       const auto clamped = [bound](float c) { return c > bound ? bound : c < -bound ? -bound : c; };
       reach[i] = farthest;
       const float e[12] = {clamped(v.x), clamped(v.y), clamped(v.z), A.xx, A.xy, A.xz, A.yy, A.yz, A.zz, b.x, b.y, b.z};
-      for (int k = 0; k < 12; ++k) error[k][i] = e[k];
+      for (int k = 0; k < 12; ++k) placed[k][i] = e[k];
     });
   }
 
-  /// Fills world positions from the errors. \param linear of an affine map; \param base where it puts the block's
+  /// Fills world positions from the quadrics. \param linear of an affine map; \param base where it puts the block's
   /// origin.
   void toWorld(const Mat3d& linear, const Vec3d& base) {
     forEachLane([&](int i) {
       const auto from = [](std::uint32_t low, float x) { return double(static_cast<float>(low) + 0.5F) + double(x); };
       const std::uint32_t c = cell[i];
-      const Vec3d inBlock{from(c >> 6, error[0][i]), from(c >> 3 & 7, error[1][i]), from(c & 7, error[2][i])};
+      const Vec3d inBlock{from(c >> 6, placed[0][i]), from(c >> 3 & 7, placed[1][i]), from(c & 7, placed[2][i])};
       const Vec3d p = linear * inBlock + base;
       position[0][i] = static_cast<float>(p.x);
       position[1][i] = static_cast<float>(p.y);

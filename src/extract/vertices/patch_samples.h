@@ -25,7 +25,8 @@ struct PatchSamples {
   double featureSigma = 0;  ///< σn of them.
 };
 
-/// Mean squared distance of a place from the planes that place the vertex, in voxels squared.
+/// Mean squared distance of a place from the planes that place the vertex, in voxels squared; planes from distances
+/// count by their weights.
 [[nodiscard]] double planeError(const PatchSamples& samples, const Vec3d& x);
 
 }  // namespace pdc::detail

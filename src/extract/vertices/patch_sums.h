@@ -83,7 +83,7 @@ class PatchSums {
 
   // Vectors go by reference: how wide ones are passed by value depends on the instruction set.
 
-  /// What a step along an axis adds to b and Σwp.
+  /// What a step along an axis adds to b and Σwp: a column of A, and Σw, which is entry 6 of A; entry 7 is zero.
   template <Axis axis>
   static void getStep(const Float8& A, Float8& step) {
     if constexpr (axis == kAxisX) step = __builtin_shufflevector(A, A, 0, 1, 2, 6, 7, 7, 7, 7);
@@ -98,7 +98,7 @@ class PatchSums {
 
   template <Axis axis, typename T>
   void addAxis(const T& terms, const EdgeIndex& edges) {
-    constexpr Axis u = nextAxis(axis), v = lastAxis(axis);
+    constexpr Axis u = nextAxis(axis), v = previousAxis(axis);
     for (int i = edges.begin(axis); i < edges.begin(axis + 1); ++i) {
       const std::uint16_t* cell = mNumber.at(edges.points()[i]);
       Float8 A, low, alongU, alongV;
@@ -126,7 +126,7 @@ class PatchSums {
     const Axis axis = kCellEdge[e].axis;
     Float8 b = along[axis] * terms.t(number);
     if ((e & 1) != 0) b += along[nextAxis(axis)];
-    if ((e & 2) != 0) b += along[lastAxis(axis)];
+    if ((e & 2) != 0) b += along[previousAxis(axis)];
     add(row, A, b);
   }
 

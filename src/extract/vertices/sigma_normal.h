@@ -15,7 +15,7 @@ namespace pdc::detail {
 /// crease, which takes a σn no larger than the noise demands.
 class SigmaNormal {
  public:
-  /// A number is the same for all patches.
+  /// One σn for all patches, from 0 to infinity; no unit.
   SigmaNormal(double sigma) : mVariance(sigma * sigma) {}
   /// Patch by patch, from the noise of neighbouring normals in some of the blocks, or from what the source knows of
   /// each. Runs in parallel; the same for any number of threads.

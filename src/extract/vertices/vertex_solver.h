@@ -9,8 +9,8 @@ namespace pdc::detail {
 
 struct SolvedVertex {
   Vec3d x;                 ///< Lattice units from the centre of the cell.
-  SymMat3<double> A;       ///< The patch's quadric has this matrix.
-  Vec3d halfGradient;      ///< Ax − b: zero where the vertex is the free minimiser.
+  SymMat3<double> A;       ///< The matrix of the patch's quadric; see PatchQuadric.
+  Vec3d halfGradient;      ///< Ax − b, in the same units: zero where the vertex is the free minimiser.
   bool outOfCell = false;  ///< The free minimiser lay outside the cell.
   bool moved = false;      ///< The vertex is not the free minimiser.
 };
@@ -18,7 +18,7 @@ struct SolvedVertex {
 /// The quadric of a patch in lattice units from the centre of its cell; its values are voxels squared.
 struct PatchQuadric {
   Quadric<double> q;
-  Vec3d massPoint;
+  Vec3d massPoint;  ///< Mean of the crossings, unweighted.
 };
 
 /// Vertices stay this far inside their cell's walls, in lattice units, so that faces of neighbouring cells cannot touch

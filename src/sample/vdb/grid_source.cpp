@@ -79,8 +79,8 @@ constexpr double kMostNoise = 0.3;
 constexpr double kBeyond = 1.15;
 
 /// \returns nothing where planes must be taken from crossings.
-std::optional<detail::DistanceModel> readDistances(HermiteMode mode, bool mayBeDistance,
-                                                   const detail::GridSampler& sampler, const LatticeMap& map) {
+std::optional<detail::DistanceModel> chooseDistanceModel(HermiteMode mode, bool mayBeDistance,
+                                                         const detail::GridSampler& sampler, const LatticeMap& map) {
   const bool asked = mode == HermiteMode::kDistance;
   if (asked && !map.affine()) throw Error("the distance estimator needs an affine transform");
   if (mode == HermiteMode::kGradient || !map.affine() || !(asked || mayBeDistance)) return std::nullopt;
@@ -127,7 +127,7 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
         fmt::format("grid of type {} cannot be contoured; {} can", grid->valueType(), detail::contourableTypeNames()));
   LatticeMap map = makeMap(*grid);
   const bool mayBeDistance = distance && (grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>());
-  std::optional<detail::DistanceModel> distances = readDistances(options.hermite, mayBeDistance, *sampler, map);
+  std::optional<detail::DistanceModel> distances = chooseDistanceModel(options.hermite, mayBeDistance, *sampler, map);
   mImpl = std::make_unique<Impl>(
       Impl{reading, std::move(map), std::move(sampler), distances, detail::NoiseGrids(grid, options)});
 }

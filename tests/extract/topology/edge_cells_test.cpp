@@ -58,7 +58,7 @@ TEST_F(EdgeCellsTest, CellsAreThoseAboutTheEdgeInOrder) {
     for (int k = 0; k < 4; ++k) {
       Coord expected = low;
       expected[nextAxis(e.axis())] -= kCellsAboutEdge[k][0];
-      expected[lastAxis(e.axis())] -= kCellsAboutEdge[k][1];
+      expected[previousAxis(e.axis())] -= kCellsAboutEdge[k][1];
       ASSERT_EQ(cellOf(cells[k]), expected);
     }
     Coord high = low;
