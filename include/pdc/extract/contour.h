@@ -69,7 +69,8 @@ struct ContourReport {
   /// quadrics with the σn that placed it. Its origin is the vertex's position in the mesh, its unit the world unit, so
   /// that it is f(x) in world units squared for x = p − positions[i]; positive definite for 0 < σn. Vertices that
   /// certifying added (the centres of fans, and those in the faces of split cells) have the mean of their neighbours'
-  /// quadrics.
+  /// quadrics. Planes from distances count by their weights, with their noise as if they passed through the mean of the
+  /// crossings; for an infinite σn it is Σ|x − pᵢ|² over the crossings.
   Buffer<Quadric<float>> quadrics{};
 };
 
