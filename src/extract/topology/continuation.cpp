@@ -60,16 +60,16 @@ bool hasItsCells(const Topology& topology, std::size_t block) {
 }  // namespace
 
 void checkContinuation(const SurfaceBlocks& blocks, const Topology& topology) {
-  constexpr std::size_t kGrain = 256, kNone = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kGrain = 256, kNoBlock = std::numeric_limits<std::size_t>::max();
   const std::size_t first = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, blocks.coords.size(), kGrain), kNone,
+      tbb::blocked_range<std::size_t>(0, blocks.coords.size(), kGrain), kNoBlock,
       [&](const tbb::blocked_range<std::size_t>& range, std::size_t found) {
-        for (std::size_t i = range.begin(); i != range.end() && found == kNone; ++i)
+        for (std::size_t i = range.begin(); i != range.end() && found == kNoBlock; ++i)
           if (!hasItsCells(topology, i)) found = i;
         return found;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (first == kNone) return;
+  if (first == kNoBlock) return;
   const Coord& c = blocks.coords[first];
   throw std::invalid_argument(fmt::format(
       "contour: the source's blocks are not closed under continuation, or signs of points that blocks share differ: "
