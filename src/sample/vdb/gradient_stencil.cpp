@@ -28,7 +28,9 @@ struct AxisKernel {
     const float below = p[-s], here = p[0], above = p[s];
     const int a = usable(above), b = usable(below), h = usable(here);
     const float oneSided = a != 0 ? above - here : here - below;
-    const float chosen = (h & (a ^ b)) != 0 ? oneSided : centralSlope(p, s);
+    // Always computed: values read under a condition would keep the loop over lanes from being vectorised.
+    const float central = centralSlope(p, s);
+    const float chosen = (h & (a ^ b)) != 0 ? oneSided : central;
     return (h & (a ^ 1) & (b ^ 1)) != 0 ? 0.0F : chosen;
   }
 

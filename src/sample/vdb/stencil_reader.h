@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "math/float_lanes.h"
 #include "math/lane_loops.h"
 #include "sample/creases/distance_stencil.h"
 #include "sample/vdb/gradient_stencil.h"
@@ -115,14 +117,19 @@ class StencilReader {
 
   /// Scales the values that a slope may be made of, in the rows that were read, and makes the others NaN.
   void scaleKnown(float scale, DistanceStencil& stencil) const {
-    withSimd(mLevel, [&stencil, scale, limits = mLimits] {
+    withSimd(mLevel, [&stencil, scale, low = mLimits.low, high = mLimits.high] {
+      constexpr int kEight = sizeof(Float8) / sizeof(float);
+      const Float8 unknown = Float8{} + std::numeric_limits<float>::quiet_NaN();
       for (int x = 0; x < DistanceStencil::kPoints; ++x)
         for (unsigned rows = stencil.rows[x]; rows != 0; rows &= rows - 1) {
           float* row = &stencil.value[(DistanceStencil::kPoints * x + std::countr_zero(rows)) * kLanes];
-          forEachLane([&](int lane) {
-            const float v = row[lane], scaled = v * scale;
-            row[lane] = ((v > limits.low) & (v < limits.high)) ? scaled : std::numeric_limits<float>::quiet_NaN();
-          });
+          // In vectors, as g++ unrolls a loop over so few lanes before it can vectorise it.
+          for (int lane = 0; lane < kLanes; lane += kEight) {
+            Float8 v;
+            std::memcpy(&v, row + lane, sizeof v);
+            v = ((v > low) & (v < high)) ? v * scale : unknown;
+            std::memcpy(row + lane, &v, sizeof v);
+          }
         }
     });
   }
