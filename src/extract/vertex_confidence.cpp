@@ -211,7 +211,9 @@ Buffer<std::uint8_t> ranksOf(const Buffer<VertexEstimate>& estimates) {
 
 void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
                          const Monitor& monitor) {
-  const auto& [source, blocks, topology] = surface;
+  const HermiteSource& source = surface.source;
+  const SurfaceBlocks& blocks = surface.blocks;
+  const Topology& topology = surface.topology;
   Buffer<VertexEstimate> estimates(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockEstimator>> estimators(
       [&] { return std::make_unique<BlockEstimator>(source, normalNoise); });

@@ -83,7 +83,9 @@ void fillAdded(const Mesh& mesh, std::size_t solved, Buffer<Quadric<float>>& qua
 
 Buffer<Quadric<float>> vertexQuadrics(const Surface& surface, const SigmaNormal& sigma, const Mesh& mesh,
                                       const Monitor& monitor) {
-  const auto& [source, blocks, topology] = surface;
+  const HermiteSource& source = surface.source;
+  const SurfaceBlocks& blocks = surface.blocks;
+  const Topology& topology = surface.topology;
   Buffer<Quadric<float>> quadrics(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockQuadrics>> workers(
       [&] { return std::make_unique<BlockQuadrics>(source, sigma); });
