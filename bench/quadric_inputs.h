@@ -9,7 +9,7 @@
 
 namespace pdc::bench {
 
-/// The same random planes, triangles, covariances and systems, one by one and in batches.
+/// Random planes, triangles, covariances and systems, each held twice: one by one and in batches.
 template <typename T>
 struct QuadricInputs {
   std::vector<Vec3<T>> p, q, r, n;

@@ -44,7 +44,7 @@ namespace pdc::test {
   return levels;
 }
 
-/// The same and the baseline, which comes first.
+/// The baseline, followed by wideSimdLevels().
 [[nodiscard]] inline std::vector<SimdLevel> simdLevels() {
   std::vector<SimdLevel> levels = wideSimdLevels();
   levels.insert(levels.begin(), SimdLevel::kBaseline);

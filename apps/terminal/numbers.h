@@ -13,7 +13,7 @@ namespace pdc {
 CLI::Option* addReal(CLI::App& command, const std::string& name, std::optional<double>& target,
                      std::function<bool(double)> accepts, const std::string& limit, const std::string& help);
 
-/// The same for a whole number in [lo, hi].
+/// Adds an option that takes a whole number in [lo, hi], read and refused as addReal() does.
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::optional<int>& target, int lo, int hi,
                         const std::string& help);
 

@@ -43,9 +43,9 @@ class Field {
   /// as long as the points' and apart from them.
   virtual void values(PointSpan points, double* values) const = 0;
 
-  /// The same values, bit for bit, and the gradient at each point, in value per world unit. On a crease it is the
-  /// gradient of one of the pieces that meet there; where the function has none it is zero or NaN, which the sampler
-  /// treats as "no normal".
+  /// Fills the values that values() gives, bit for bit, and the gradient at each point, in value per world unit. On a
+  /// crease it is the gradient of one of the pieces that meet there; where the function has none it is zero or NaN,
+  /// which the sampler treats as "no normal".
   virtual void gradients(PointSpan points, double* values, GradientSpan gradients) const = 0;
 
   /// A range that contains f over the whole box (closed, lo <= hi), but for places where f is NaN; rounding is

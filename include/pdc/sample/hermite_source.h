@@ -55,7 +55,7 @@ class HermiteSource {
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;
 
-  /// The same for the source's whole life.
+  /// What it says does not change while the source lives.
   [[nodiscard]] virtual SourceKnowledge knowledge() const { return {}; }
 
   /// Fills crossings and normals of a block of surfaceBlocks(). Does not allocate.

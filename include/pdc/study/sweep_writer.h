@@ -21,8 +21,8 @@ struct SweepDescription {
 /// inf.
 [[nodiscard]] std::string sweepCsv(const Sweep& sweep);
 
-/// The same figures as a JSON object, with the recommended value, the reason and the command. Infinity is the string
-/// "inf", what is not known null. The description's pictures are not in it.
+/// The figures of the table as a JSON object, with the recommended value, the reason and the command. Infinity is the
+/// string "inf", what is not known null. The description's pictures are not in it.
 [[nodiscard]] std::string sweepJson(const Sweep& sweep, const SweepDescription& description);
 
 /// An HTML page that needs nothing but itself: the pictures with a slider, curves, the table. It adapts to light and

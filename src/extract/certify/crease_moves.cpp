@@ -167,7 +167,7 @@ std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near
     found[k] = findPlace(near.locator(), mesh.faces(), mesh.vertices()[vertices[k]]);
   });
 
-  // Of the vertices of a conflict only the best may move.
+  // Only the best vertex of each conflict may move.
   const auto indexOf = [&](const Candidate& c) {
     return static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), c.vertex) - vertices.begin());
   };
