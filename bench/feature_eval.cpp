@@ -3,7 +3,6 @@
 // poses.
 
 #include <fmt/format.h>
-#include <openvdb/tools/VolumeToMesh.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -12,6 +11,7 @@
 #include "eval/inputs.h"
 #include "eval/metrics.h"
 #include "eval/shapes.h"
+#include "eval/volume_to_mesh.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/function_field.h"
 #include "pdc/sample/implicit/field_source.h"
@@ -51,25 +51,6 @@ struct Outcome {
 const std::map<std::string, Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
 
-Mesh volumeToMesh(const GridInput& input) {
-  openvdb::tools::VolumeToMesh mesher(input.iso, 0);
-  mesher(*input.grid);
-  Mesh mesh;
-  for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
-    const openvdb::Vec3s& p = mesher.pointList()[i];
-    mesh.positions.push_back({p.x(), p.y(), p.z()});
-  }
-  for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
-    const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
-    // OpenVDB winds the other way.
-    for (openvdb::Index k = 0; k < pool.numQuads(); ++k) {
-      const openvdb::Vec4I& q = pool.quad(k);
-      mesh.quads.push_back({q[3], q[2], q[1], q[0]});
-    }
-  }
-  return mesh;
-}
-
 Mesh contourCase(const Case& c, const HermiteSource& source, const Request& request, Outcome& outcome) {
   ContourReport report;
   Mesh mesh = contour(source,
@@ -98,7 +79,7 @@ Outcome evaluate(const Case& c, const Pose& pose, unsigned seed, const Request& 
         graded ? makeGradedGrid(c.shape, pose, c.noise, seed) : makeGrid(c.input, c.shape, pose, c.noise, seed);
     begin = start();
     if (c.method == "volume_to_mesh") {
-      mesh = volumeToMesh(input);
+      mesh = volumeToMesh(*input.grid, input.iso);
     } else {
       const bool distance = c.method.starts_with("distance");
       const GridSource source(input.grid, {.iso = input.iso,

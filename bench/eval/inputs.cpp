@@ -12,16 +12,13 @@ namespace {
 
 constexpr float kHalfWidth = 3;
 
-/// The distance plus a shift, clamped to the band.
-openvdb::FloatGrid::Ptr sampleDistance(const Shape& shape, const Pose& pose, double shift) {
+/// A level set. \param reach of the solid from the origin, in voxels.
+openvdb::FloatGrid::Ptr sampleDistance(const std::function<double(const Vec3d&)>& distance, double reach) {
   auto grid = openvdb::FloatGrid::create(kHalfWidth);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  const auto value = [&](const openvdb::Vec3d& p) {
-    return shape.distance(pose.toShape({p.x(), p.y(), p.z()})) * pose.size + shift;
-  };
-  // All solids lie within twice their half size.
-  const int reach = static_cast<int>(2 * pose.size) + 8;
-  const openvdb::CoordBBox box(openvdb::Coord(-(reach / 8 + 1)), openvdb::Coord(reach / 8 + 1));
+  const auto value = [&](const openvdb::Vec3d& p) { return distance({p.x(), p.y(), p.z()}); };
+  const int blocks = (static_cast<int>(reach) + 8) / 8 + 1;
+  const openvdb::CoordBBox box(openvdb::Coord(-blocks), openvdb::Coord(blocks));
   for (auto it = box.beginXYZ(); it; ++it) {
     const openvdb::Coord origin((*it).x() * 8, (*it).y() * 8, (*it).z() * 8);
     constexpr double kToCorner = 6.1;  // A leaf's points lie within this distance of their middle.
@@ -61,7 +58,9 @@ const std::vector<std::string>& gridInputs() {
 
 GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise, unsigned seed) {
   const double iso = input == "iso" ? 1 : 0;
-  GridInput out{input == "mesh" ? rasterise(shape, pose) : sampleDistance(shape, pose, iso), iso};
+  const auto distance = [&](const Vec3d& p) { return shape.distance(pose.toShape(p)) * pose.size + iso; };
+  // All solids lie within twice their half size.
+  GridInput out{input == "mesh" ? rasterise(shape, pose) : sampleDistance(distance, 2 * pose.size), iso};
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0, noise);
   for (auto leaf = out.grid->tree().beginLeaf(); leaf; ++leaf)
@@ -71,6 +70,39 @@ GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pos
       if (input == "half") v = static_cast<float>(openvdb::math::half(v));
       it.setValue(v);
     }
+  return out;
+}
+
+GridInput makeClean(const std::string& input, const std::function<double(const Vec3d&)>& distance, double reach) {
+  GridInput out{sampleDistance(distance, reach), 0};
+  if (input == "level_set") return out;
+  out.iso = 0.5;
+  auto fog = openvdb::FloatGrid::create(0);
+  fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+  fog->tree().topologyUnion(out.grid->tree());
+  const auto accessor = out.grid->getConstAccessor();
+  const auto density = [](float d) { return std::clamp(0.5F - d / kHalfWidth, 0.0F, 1.0F); };
+  for (auto it = fog->beginValueOn(); it; ++it) it.setValue(density(accessor.getValue(it.getCoord())));
+  // What lies deeper inside than the band is full.
+  for (auto it = out.grid->cbeginValueOff(); it; ++it)
+    if (*it < 0) fog->tree().fill(it.getBoundingBox(), 1, true);
+  out.grid = fog;
+  return out;
+}
+
+GridInput withNoise(const GridInput& clean, double noise, bool half, unsigned seed) {
+  GridInput out{clean.grid->deepCopy(), clean.iso};
+  const bool fog = clean.grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
+  const double perVoxel = fog ? 1.0 / double{kHalfWidth} : 1.0;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (auto it = out.grid->beginValueOn(); it; ++it) {
+    if (!it.isVoxelValue()) continue;
+    float v = *it;
+    if (noise > 0) v += static_cast<float>(noise * perVoxel * normal(random));
+    if (half) v = static_cast<float>(openvdb::math::half(v));
+    it.setValue(v);
+  }
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct GridInput {
 /// every active value, in voxels. \param seed chooses the noise.
 [[nodiscard]] GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pose, double noise,
                                  unsigned seed);
+
+/// A grid of a solid's distances about the origin: "level_set" of half width 3, or "fog", which falls from 1 to 0
+/// within 1.5 voxels of the surface. \param reach of the solid from the origin, in voxels.
+[[nodiscard]] GridInput makeClean(const std::string& input, const std::function<double(const Vec3d&)>& distance,
+                                  double reach);
+
+/// A copy with noise in every active value, and rounded to half precision if asked for. \param noise in voxels.
+[[nodiscard]] GridInput withNoise(const GridInput& clean, double noise, bool half, unsigned seed);
 
 /// Exact distances with noise that grows along x, from 0 where the solid begins to `noise` where it ends, with a σ
 /// grid.

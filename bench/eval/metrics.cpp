@@ -169,15 +169,10 @@ double rankCorrelation(const std::vector<double>& a, const std::vector<double>& 
   return own > 0 ? both / own : 0;
 }
 
-Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const bool halves = part == Part::kHalves;
-  const double fromX = halves ? pose.offset.x : -kInfinity, toX = halves ? pose.offset.x : kInfinity;
+Figures measureEdges(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part) {
   Figures f;
+  const double toX = part == Part::kHalves ? pose.offset.x : std::numeric_limits<double>::infinity();
   const std::vector<Triangle> triangles = allTriangles(mesh);
-  measureVertices(mesh, shape, pose, fromX, f);
-  measureNormals(triangles, mesh, shape, pose, f);
-  if (shape.edges.empty() && shape.corners.empty()) return f;
   Nearest surface(Figures::kFar);
   for (const Triangle& t : triangles) {
     const Corners c = corners(mesh, t);
@@ -195,6 +190,15 @@ Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part par
   for (const Vec3d& c : shape.corners)
     if (pose.toWorld(c).x < toX) f.cornerMax = std::max(f.cornerMax, surface.distance(pose.toWorld(c)));
   f.edgeF1 = edgeF1(sharpEdges(triangles, mesh), truth, shape, pose);
+  return f;
+}
+
+Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part) {
+  const double fromX = part == Part::kHalves ? pose.offset.x : -std::numeric_limits<double>::infinity();
+  Figures f;
+  if (!shape.edges.empty() || !shape.corners.empty()) f = measureEdges(mesh, shape, pose, part);
+  measureVertices(mesh, shape, pose, fromX, f);
+  measureNormals(allTriangles(mesh), mesh, shape, pose, f);
   return f;
 }
 

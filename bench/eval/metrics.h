@@ -29,6 +29,9 @@ struct Figures {
 /// it.
 enum class Part { kAll, kHalves };
 
+/// The figures of edges and corners alone.
+[[nodiscard]] Figures measureEdges(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part = Part::kAll);
+
 [[nodiscard]] Figures measure(const Mesh& mesh, const Shape& shape, const Pose& pose, Part part = Part::kAll);
 
 }  // namespace pdc::eval
