@@ -65,9 +65,11 @@ tbb::global_control limitThreads(const benchmark::State& state) {
 void pdcContour(benchmark::State& state, const FloatGrid::Ptr& grid, pdc::Placement placement,
                 pdc::HermiteMode hermite) {
   const auto threads = limitThreads(state);
+  pdc::ContourOptions options{.placement = placement};
+  if (hermite == pdc::HermiteMode::kGradient) options.sigmaNormal = pdc::kPapersSigmaNormal;
   std::size_t vertices = 0;
   for (auto _ : state) {
-    const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid, {.hermite = hermite}), {.placement = placement});
+    const pdc::Mesh mesh = pdc::contour(pdc::GridSource(grid, {.hermite = hermite}), options);
     vertices = mesh.positions.size();
     benchmark::DoNotOptimize(mesh.quads.data());
   }

@@ -3,17 +3,18 @@
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "eval/inputs.h"
 #include "eval/shapes.h"
+#include "eval/volume_to_mesh.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"
@@ -27,7 +28,8 @@
 
 namespace {
 
-constexpr double kSigmas[] = {0.0, 0.01, 0.1, 1.0, std::numeric_limits<double>::infinity()};
+constexpr std::optional<double> kSigmas[] = {std::nullopt, 0.0, 0.01,
+                                             0.1,          1.0, std::numeric_limits<double>::infinity()};
 
 std::size_t triangleCount(const pdc::Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
 
@@ -45,32 +47,14 @@ std::size_t faults(const pdc::Mesh& mesh) {
   return r.boundaryEdges + r.nonManifoldEdges + r.nonManifoldVertices + r.misorientedEdges;
 }
 
-pdc::Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso) {
-  openvdb::tools::VolumeToMesh mesher(iso, 0);
-  mesher(grid);
-  pdc::Mesh mesh;
-  for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
-    const openvdb::Vec3s& p = mesher.pointList()[i];
-    mesh.positions.push_back({p.x(), p.y(), p.z()});
-  }
-  for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
-    const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
-    for (std::size_t k = 0; k < pool.numQuads(); ++k) {
-      const openvdb::Vec4I& q = pool.quad(k);
-      mesh.quads.push_back({q[0], q[1], q[2], q[3]});
-    }
-  }
-  return mesh;
-}
-
 void printRow(const std::string& name, const pdc::HermiteSource& source, const std::string& peer) {
-  for (const double sigma : kSigmas) {
+  for (const std::optional<double> sigma : kSigmas) {
     pdc::ContourReport report;
     const pdc::Mesh certified = pdc::contour(source, {.sigmaNormal = sigma}, &report);
     const pdc::Mesh free = pdc::contour(source, {.sigmaNormal = sigma, .placement = pdc::Placement::kFree});
     const std::size_t n = certified.positions.size();
-    fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} % | {:.2f} % | {} | {} | {} |\n", name, sigma, n,
-               faults(certified), hits(certified), report.uncertified,
+    fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} % | {:.2f} % | {} | {} | {} |\n", name,
+               sigma ? fmt::format("{}", *sigma) : "auto", n, faults(certified), hits(certified), report.uncertified,
                1e2 * static_cast<double>(report.shortened) / static_cast<double>(n),
                1e2 * static_cast<double>(report.drawnIn) / static_cast<double>(n), report.fans, hits(free), peer);
     std::fflush(stdout);
@@ -82,7 +66,7 @@ void printFile(const std::filesystem::path& path) {
     const auto grid = pdc::readVdbGrid(path);
     const pdc::GridSource source(grid);
     const auto asFloat = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
-    printRow(path.stem().string(), source, asFloat ? hits(volumeToMesh(*asFloat, source.iso())) : "");
+    printRow(path.stem().string(), source, asFloat ? hits(pdc::eval::volumeToMesh(*asFloat, source.iso())) : "");
   } else {
     const pdc::Scene scene = pdc::readScene(path);
     printRow(path.stem().string(),
@@ -115,7 +99,7 @@ void printShape(const std::string& name, int resolution, const std::vector<openv
   std::size_t meshes = 0, triangles = 0, broken = 0, pairs = 0, freePairs = 0, freeTriangles = 0, uncertified = 0;
   for (const auto& grid : grids) {
     const pdc::GridSource source(grid);
-    for (const double sigma : kSigmas) {
+    for (const std::optional<double> sigma : kSigmas) {
       pdc::ContourReport report;
       const pdc::Mesh certified = pdc::contour(source, {.sigmaNormal = sigma}, &report);
       const pdc::Mesh free = pdc::contour(source, {.sigmaNormal = sigma, .placement = pdc::Placement::kFree});

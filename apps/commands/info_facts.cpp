@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "commands/json_report.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
@@ -49,7 +50,7 @@ Json sceneFacts(const std::filesystem::path& path) {
   Json cells = Json::array();
   for (int axis = 0; axis < 3; ++axis)
     cells.push_back(voxelsAlong(scene.box.hi[axis] - scene.box.lo[axis], scene.voxelSize));
-  const double sigma = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
+  const std::optional<double> sigma = scene.sigmaNormal;
   Json facts{{"kind", "scene"}};
   if (!scene.name.empty()) facts["name"] = scene.name;
   facts.update({{"box_lo", toJson(scene.box.lo)},
@@ -57,7 +58,7 @@ Json sceneFacts(const std::filesystem::path& path) {
                 {"voxel_size", scene.voxelSize},
                 {"cells", cells},
                 {"iso", scene.iso},
-                {"sigma_n", std::isinf(sigma) ? Json("inf") : Json(sigma)}});
+                {"sigma_n", sigmaNormalJson(sigma)}});
   return facts;
 }
 

@@ -28,8 +28,12 @@ std::size_t peakMemoryBytes() {
 
 }  // namespace
 
+Json sigmaNormalJson(const std::optional<double>& sigma) {
+  if (!sigma) return "auto";
+  return std::isinf(*sigma) ? Json("inf") : Json(*sigma);
+}
+
 Json toJson(const MeshRequest& request, const MeshRun& run) {
-  const std::optional<double> sigma = run.options.sigmaNormal;
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
   return {{"input", request.input.string()},
@@ -50,10 +54,10 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"fans", run.contour.fans},
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
-          {"sigma_n", !sigma               ? Json("auto")
-                      : std::isinf(*sigma) ? Json("inf")
-                                           : Json(*sigma)},
+          {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
+          {"median_sigma_n", run.contour.medianSigmaNormal},
           {"normal_noise", run.contour.normalNoise},
+          {"crease_patches", run.contour.creasePatches},
           {"sigma_grid", request.sigmaGrid ? Json(*request.sigmaGrid) : Json()},
           {"weight_grid", request.weightGrid ? Json(*request.weightGrid) : Json()},
           {"placement", placementName(request.placement)},

@@ -23,6 +23,9 @@ struct MeshRun {
   std::vector<std::string> warnings;
 };
 
+/// "auto" where it comes from the data, "inf", or a number.
+[[nodiscard]] nlohmann::ordered_json sigmaNormalJson(const std::optional<double>& sigma);
+
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run);
 
 /// \throws Error unless a report can be written to `path`. An empty path (no report) and "-" (standard output) always

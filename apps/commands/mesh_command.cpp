@@ -80,7 +80,12 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
              run.bytesWritten);
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
-  if (!run.options.sigmaNormal) fmt::print("noise of the normals {:.2g}\n", run.contour.normalNoise);
+  if (run.contour.creasePatches > 0)
+    fmt::print("{:.2g} % of the vertices on creases\n",
+               1e2 * static_cast<double>(run.contour.creasePatches) / static_cast<double>(run.vertices));
+  if (!run.options.sigmaNormal)
+    fmt::print("sigma_n from the data: median {:.2g}; noise of the normals {:.2g}\n", run.contour.medianSigmaNormal,
+               run.contour.normalNoise);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
              run.secondsContour, run.secondsWrite);
 }

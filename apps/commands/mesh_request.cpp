@@ -36,8 +36,7 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
     request.sigmaNormal = number ? std::optional(value[0]) : std::nullopt;
   };
   command
-      .add_option_function<std::string>("--sigma-n", sigma,
-                                        "Assumed noise of the unit normals (0.05); auto: from the data")
+      .add_option_function<std::string>("--sigma-n", sigma, "Assumed noise of the unit normals (auto: from the data)")
       ->type_name("S|inf|auto")
       ->group(group);
   addPlacement(command, request.placement,
@@ -106,8 +105,8 @@ InputOptions MeshRequest::inputOptions() const {
           .resolution = resolution};
 }
 
-ContourOptions MeshRequest::contourOptions(double assumedSigma) const {
-  return {.sigmaNormal = sigmaFromData ? std::nullopt : std::optional(sigmaNormal.value_or(assumedSigma)),
+ContourOptions MeshRequest::contourOptions(std::optional<double> otherSigma) const {
+  return {.sigmaNormal = sigmaFromData ? std::nullopt : (sigmaNormal ? sigmaNormal : otherSigma),
           .placement = placement,
           .triangles = triangles,
           .normals = normals,

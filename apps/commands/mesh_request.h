@@ -25,8 +25,8 @@ struct MeshRequest {
 
   /// How to read the input.
   [[nodiscard]] InputOptions inputOptions() const;
-  /// How to contour it; `assumedSigma` holds where the command line does not say sigma.
-  [[nodiscard]] ContourOptions contourOptions(double assumedSigma) const;
+  /// How to contour it; `otherSigma`, or σn from the data, holds where the command line does not say sigma.
+  [[nodiscard]] ContourOptions contourOptions(std::optional<double> otherSigma) const;
 };
 
 /// "certified", "cell" or "free", as the command line and reports have it.

@@ -55,7 +55,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const SweepParameter parameter = request.parameter();
   SweepInput first = openStep(request, request.mesh, reference);
-  SweepOptions options{.contour = request.mesh.contourOptions(kDefaultSigmaNormal), .truth = {}};
+  SweepOptions options{.contour = request.mesh.contourOptions(kPapersSigmaNormal), .truth = {}};
   if (parameter == SweepParameter::kSigmaNormal) {
     options.truth = std::move(first.truth);
     return sweepSigma(*first.source, request.values(), options, monitor);

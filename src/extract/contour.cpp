@@ -51,8 +51,8 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   Mesh mesh;
   const bool promised = options.placement != Placement::kFree;
   detail::Suspects suspects;
-  const auto sigmaFromData = [&] { return detail::SigmaNormal::fromData(source, blocks, monitor); };
-  const detail::SigmaNormal sigma = options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal) : sigmaFromData();
+  const detail::SigmaNormal sigma =
+      options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal) : detail::SigmaNormal::fromData(source);
   const detail::FillMeshOptions fill{
       .sigma = sigma,
       .halfSize = options.placement == Placement::kCell ? detail::kCellHalfSize : detail::kFreeHalfSize,
@@ -60,8 +60,7 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
   const detail::VertexCounts counts = fillMesh(surface, fill, mesh, promised ? &suspects : nullptr, monitor);
   detail::CertifyCounts certified;
   if (promised) certified = certify(surface, suspects, mesh, monitor);
-  if (options.confidence || options.ranks)
-    addVertexConfidence(surface, (options.sigmaNormal ? sigmaFromData() : sigma).noise(), options, mesh, monitor);
+  if (options.confidence || options.ranks) addVertexConfidence(surface, options, mesh, monitor);
   Buffer<Quadric<float>> quadrics;
   if (options.quadrics) quadrics = vertexQuadrics(surface, sigma, mesh, monitor);
   if (options.triangles) splitQuads(mesh);
@@ -77,7 +76,9 @@ Mesh run(const HermiteSource& source, const ContourOptions& options, ContourRepo
                .drawnIn = certified.drawnIn,
                .forcedDiagonals = certified.forcedDiagonals,
                .fans = certified.fans,
-               .normalNoise = sigma.noise(),
+               .normalNoise = counts.agreement.sigma(),
+               .medianSigmaNormal = counts.sigmas.median(),
+               .creasePatches = counts.creases,
                .uncertified = certified.uncertified,
                .quadrics = std::move(quadrics)};
   return mesh;

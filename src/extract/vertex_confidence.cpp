@@ -10,6 +10,7 @@
 #include "extract/vertices/block_sampler.h"
 #include "extract/vertices/cell_metric.h"
 #include "extract/vertices/patch_samples.h"
+#include "extract/vertices/sigma_normal.h"
 #include "mesh/faces.h"
 #include "parallel/block_progress.h"
 #include "parallel/isolated.h"
@@ -83,19 +84,16 @@ VertexEstimate estimate(const Planes& planes) {
 /// Estimates the vertices of one block after another. For one thread; large: keep it off the stack.
 class BlockEstimator {
  public:
-  /// \param normalNoise of the source's normals: noise of values turns normals by about as much as it moves crossings,
-  /// in voxels.
-  BlockEstimator(const HermiteSource& source, double normalNoise)
+  explicit BlockEstimator(const HermiteSource& source)
       : mMap(source.map()),
-        mSampler(source),
-        mKnowsSigma(source.knowledge().noise == SourceKnowledge::Noise::kSigma),
-        mNormalVariance(square(normalNoise)) {}
+        mSampler(source, SigmaNormal::fromData(source).needsNoise()),
+        mKnowsSigma(source.knowledge().noise == SourceKnowledge::Noise::kSigma) {}
 
   void run(const SurfaceBlock& block, const BlockTopology& topology, const Mesh& mesh,
            Buffer<VertexEstimate>& estimates) {
     const Vec3d origin = blockOrigin(block.coord);
     const CellMetric metric = blockMetric(mMap, origin);
-    mSampler.run(block, topology);
+    mSampler.run(block, topology, metric);
     const PatchList& patches = mSampler.patches();
     const FeaturePlanes& features = mSampler.features();
     const Mat3d toWorld = inverse(metric.M).transposed();
@@ -112,7 +110,7 @@ class BlockEstimator {
         for (const FeaturePlanes::Plane& p : features.of(*feature))
           add(toWorld * vecCast<double>(p.row), vecCast<double>(p.point));
       } else {
-        planes.known = mKnowsSigma ? meanVariance(patches[i], block.edges) : mNormalVariance;
+        planes.known = mKnowsSigma ? meanVariance(patches[i], block.edges) : square(mSampler.normalNoise());
         addCrossings(patches[i], block.edges, add);
       }
       estimates[vertex] = estimate(planes);
@@ -143,7 +141,6 @@ class BlockEstimator {
   const LatticeMap& mMap;
   BlockSampler mSampler;
   const bool mKnowsSigma;  ///< The source knows the noise of each normal.
-  const double mNormalVariance;
 };
 
 /// Calls visit(a, b) for all ordered pairs of vertices of each face. \throws Cancelled.
@@ -209,14 +206,13 @@ Buffer<std::uint8_t> ranksOf(const Buffer<VertexEstimate>& estimates) {
 
 }  // namespace
 
-void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
-                         const Monitor& monitor) {
+void addVertexConfidence(const Surface& surface, const ContourOptions& options, Mesh& mesh, const Monitor& monitor) {
   const HermiteSource& source = surface.source;
   const SurfaceBlocks& blocks = surface.blocks;
   const Topology& topology = surface.topology;
   Buffer<VertexEstimate> estimates(mesh.positions.size());
   tbb::enumerable_thread_specific<std::unique_ptr<BlockEstimator>> estimators(
-      [&] { return std::make_unique<BlockEstimator>(source, normalNoise); });
+      [&] { return std::make_unique<BlockEstimator>(source); });
   BlockProgress progress(monitor, "confidence", blocks.coords.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.coords.size(), 16), [&](const auto& range) {
     isolated([&] {

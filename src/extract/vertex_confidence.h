@@ -8,9 +8,7 @@ namespace pdc::detail {
 
 /// Gives the mesh the properties "confidence" and "rank" as far as `options` asks for them. Samples the source a second
 /// time, so that solving stays as quick as it is. \param mesh as solved and certified; vertices beyond the topology's
-/// are those that certifying added on lattice edges, and are rated like their neighbours. \param normalNoise as the
-/// data tell it: see SigmaNormal::fromData().
-void addVertexConfidence(const Surface& surface, double normalNoise, const ContourOptions& options, Mesh& mesh,
-                         const Monitor& monitor);
+/// are those that certifying added on lattice edges, and are rated like their neighbours.
+void addVertexConfidence(const Surface& surface, const ContourOptions& options, Mesh& mesh, const Monitor& monitor);
 
 }  // namespace pdc::detail

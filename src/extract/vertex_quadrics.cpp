@@ -32,14 +32,15 @@ class BlockQuadrics {
   BlockQuadrics(const HermiteSource& source, const SigmaNormal& sigma)
       : mMap(source.map()),
         mSolver(sigma, kFreeHalfSize),
-        mSampler(source),
+        mSampler(source, sigma.needsNoise()),
         mPatchSolver(mSampler, mCrossings, mSolver) {}
 
   void run(const SurfaceBlock& block, const BlockTopology& topology, const Mesh& mesh, Buffer<Quadric<float>>& out) {
     const Vec3d origin = blockOrigin(block.coord);
     const CellMetric metric = blockMetric(mMap, origin);
     const double unit = metric.voxelSize * metric.voxelSize;
-    mSampler.run(block, topology);
+    mSampler.run(block, topology, metric);
+    mSolver.setNoise(mSampler.normalNoise());
     mCrossings.fill(mSampler.hermite(), block.edges, metric, mMap, origin, bestSimdLevel());
     for (std::size_t i = 0; i < mSampler.patches().size(); ++i) {
       mPatchSolver.load(i, block.edges);
@@ -54,7 +55,7 @@ class BlockQuadrics {
 
  private:
   const LatticeMap& mMap;
-  const VertexSolver mSolver;
+  VertexSolver mSolver;
   BlockSampler mSampler;
   CrossingPlanes mCrossings;
   PatchSolver mPatchSolver;

@@ -88,7 +88,7 @@ Input openScene(const fs::path& path, const InputOptions& options) {
   if (options.resolution) voxelSize = longestSide(scene.box) / *options.resolution;
   Input input;
   input.iso = options.iso.value_or(scene.iso);
-  input.sigmaNormal = scene.sigmaNormal.value_or(kDefaultSigmaNormal);
+  input.sigmaNormal = scene.sigmaNormal;
   auto source = std::make_unique<FieldSource>(
       scene.field,
       FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = input.iso, .open = options.open});

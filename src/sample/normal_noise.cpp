@@ -1,25 +1,36 @@
 #include "pdc/sample/normal_noise.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <tbb/combinable.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
-#include "sample/surface_pairs.h"
+#include <memory>
+
+#include "parallel/isolated.h"
+#include "sample/normal_noise_histogram.h"
 
 namespace pdc {
 
 double normalNoise(const HermiteSource& source, const Monitor& monitor) {
-  std::vector<double> squares =
-      detail::mapSurfacePairs<double>(source, monitor, [](const auto& a, const auto& b, auto& found) {
-        const Vec3d d = a.normal - b.normal;
-        if (a.normal != Vec3d{} && b.normal != Vec3d{}) found.push_back(dot(d, d));
-      });
-  if (squares.empty()) return 0;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  // A unit normal varies in two directions, its difference from another has twice the variance: |d|² is 2 σn² times a
-  // chi-squared of two degrees of freedom, whose median is 2 ln 2.
-  return std::sqrt(*middle / (4 * std::numbers::ln2));
+  const SurfaceBlocks blocks = source.surfaceBlocks(monitor);
+  tbb::enumerable_thread_specific<std::unique_ptr<HermiteBlock>> scratch(
+      [] { return std::make_unique<HermiteBlock>(); });
+  tbb::combinable<detail::NormalNoiseHistogram> parts;
+  const LatticeMap& map = source.map();
+  tbb::parallel_for(std::size_t{0}, blocks.coords.size(), [&](std::size_t i) {
+    monitor.throwIfStopped();
+    detail::isolated([&] {
+      HermiteBlock& hermite = *scratch.local();
+      const EdgeIndex edges(blocks.signs[i]);
+      source.fillHermite({blocks.coords[i], blocks.signs[i], edges}, hermite);
+      const Coord& b = blocks.coords[i];
+      const Vec3d origin{double(kBlockSize) * b[0], double(kBlockSize) * b[1], double(kBlockSize) * b[2]};
+      parts.local().add(hermite, edges, matCast<float>(map.jacobian(origin)));
+    });
+  });
+  detail::NormalNoiseHistogram all;
+  parts.combine_each([&](const detail::NormalNoiseHistogram& part) { all += part; });
+  return all.sigma();
 }
 
 }  // namespace pdc

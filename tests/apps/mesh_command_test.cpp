@@ -109,10 +109,12 @@ TEST_F(MeshCommand, ReportHasAllKeys) {
 TEST_F(MeshCommand, SigmaAndPlacementReachTheContouring) {
   contour({bulletGrid()});
   const std::string standard = readFile(mOutput);
-  contour({bulletGrid(), "--sigma-n", "0.05", "--placement", "certified"});
+  contour({bulletGrid(), "--sigma-n", "auto", "--placement", "certified"});
   EXPECT_TRUE(readFile(mOutput) == standard);
-  contour({bulletGrid(), "--sigma-n", "0.5"});
-  EXPECT_FALSE(readFile(mOutput) == standard);
+  for (const char* sigma : {"0.05", "0.5"}) {
+    contour({bulletGrid(), "--sigma-n", sigma});
+    EXPECT_FALSE(readFile(mOutput) == standard) << sigma;
+  }
   EXPECT_EQ(contour({bulletGrid(), "--placement", "free"})["placement"], "free");
 }
 
@@ -195,9 +197,10 @@ TEST_F(MeshCommand, NormalsAreWritten) {
 TEST_F(MeshCommand, NoiseGridsReachTheContouring) {
   const std::string input = mFolder / "sphere.vdb";
   writeSphere(input, {.noiseGrids = true});
-  contour({input, "--grid", "sphere"});
+  contour({input, "--grid", "sphere", "--sigma-n", "0.05"});
   const Buffer<Vec3f> plain = readMesh(mOutput).positions;
-  const Json report = contour({input, "--grid", "sphere", "--weight-grid", "weight", "--sigma-grid", "sigma"});
+  const Json report =
+      contour({input, "--grid", "sphere", "--sigma-n", "0.05", "--weight-grid", "weight", "--sigma-grid", "sigma"});
   EXPECT_EQ(report["sigma_grid"], "sigma");
   EXPECT_EQ(report["weight_grid"], "weight");
   const Buffer<Vec3f> noisy = readMesh(mOutput).positions;
@@ -220,9 +223,14 @@ TEST_F(MeshCommand, FaultyNoiseIsAWarning) {
 }
 
 TEST_F(MeshCommand, SigmaFromTheDataIsReported) {
-  const Json report = contour({bulletGrid(), "--sigma-n", "auto"});
+  const Json report = contour({bulletGrid()});
   EXPECT_EQ(report["sigma_n"], "auto");
   EXPECT_GT(report["normal_noise"], 0);
+  EXPECT_GT(report["median_sigma_n"], 0.1);
+  EXPECT_GT(report["crease_patches"], 100);
+  const Outcome outcome = runPdc({"mesh", bulletGrid(), mOutput});
+  EXPECT_NE(outcome.out.find("% of the vertices on creases"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("sigma_n from the data: median"), std::string::npos) << outcome.out;
 }
 
 TEST_F(MeshCommand, ConfidenceAndRankAreWrittenAndDrawn) {

@@ -85,7 +85,7 @@ TEST(VertexQuadrics, VerticesThatCertifyingAddsHaveOneToo) {
   SignSource source(24);
   for (int i = 0; i < 24 * 24 * 24; ++i) source.set(i / 576, i / 24 % 24, i % 24, inside(engine));
   ContourReport report;
-  const Mesh mesh = contour(source, {.quadrics = true}, &report);
+  const Mesh mesh = contour(source, {.sigmaNormal = kPapersSigmaNormal, .quadrics = true}, &report);
   ASSERT_GT(report.fans, 10u);
   ASSERT_EQ(report.quadrics.size(), mesh.positions.size());
   for (const Quadric<float>& q : report.quadrics) {

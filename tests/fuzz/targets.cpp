@@ -32,7 +32,7 @@ void fuzzScene(std::string_view bytes) {
   const double voxelSize =
       std::max({scene.voxelSize, size.x / kResolution, size.y / kResolution, size.z / kResolution});
   contourAndCheck(FieldSource(scene.field, {.box = scene.box, .voxelSize = voxelSize, .iso = scene.iso}),
-                  scene.sigmaNormal.value_or(kDefaultSigmaNormal));
+                  scene.sigmaNormal.value_or(kPapersSigmaNormal));
 }
 
 void fuzzVdb(std::string_view bytes) {

@@ -52,7 +52,7 @@ TEST(InputKind, GoesByTheSuffixInAnyCase) {
 TEST_F(OpenInput, AGridSaysWhatItsSourceSays) {
   const Input input = openInput(write({sphere()}));
   EXPECT_EQ(input.iso, 0);
-  EXPECT_EQ(input.sigmaNormal, kDefaultSigmaNormal);
+  EXPECT_EQ(input.sigmaNormal, std::nullopt);
   EXPECT_EQ(input.field, nullptr);
   EXPECT_EQ(input.planeOrigin, PlaneOrigin::kDistance);
   EXPECT_LT(input.valueNoise, 0.01);

@@ -19,13 +19,13 @@ TEST(NormalNoise, IsZeroOnFlatFacesWhateverTheCreases) {
   EXPECT_EQ(normalNoise(sourceOf(box({0, 0, 0}, {1, 1, 0.5}))), 0);
 }
 
-// The gradient of values with independent errors: about proportional to them.
+// The gradient of values with independent errors: about proportional to them while they are small.
 TEST(NormalNoise, GrowsWithTheNoiseOfTheValues) {
   double last = 0;
   for (const double noise : {0.02, 0.05, 0.1, 0.2}) {
     const double found = normalNoise(GridSource(test::noisyLevelSet(0.05, noise, 3)));
     EXPECT_GT(found, last);
-    EXPECT_NEAR(found / noise, 0.8, 0.2);
+    EXPECT_NEAR(found / noise, 0.68, 0.15);
     last = found;
   }
 }

@@ -17,17 +17,18 @@ enum class Placement {
   kFree,       ///< Within 1.5 steps of the lattice of its cell along each axis; faces may intersect.
 };
 
-/// σn where nothing else is said.
-inline constexpr double kDefaultSigmaNormal = 0.05;
+/// σn of the paper's experiments: five percent.
+inline constexpr double kPapersSigmaNormal = 0.05;
 
 struct ContourOptions {
   /// Standard deviation σn assumed for each component of the unit normals (no unit, >= 0). 0 is the classical quadric
-  /// with a pseudo-inverse about the mass point, infinity is the mass point. 0.05: five percent, as the paper's
-  /// experiments.
-  /// Empty: from the data. The noise of the normals is estimated as by normalNoise() from up to 64 blocks; creases get
-  /// that as σn, at least 0.02, and patches whose normals agree to within it about 0.7 or more, which halves the error
-  /// of curvature and noise there. A function has no noise. Planes that come from distances have a σn of their own.
-  std::optional<double> sigmaNormal = kDefaultSigmaNormal;
+  /// with a pseudo-inverse about the mass point, infinity is the mass point. Experiments in the paper have
+  /// kPapersSigmaNormal.
+  /// Empty: from the data, patch by patch. The noise of the normals is estimated block by block, as by normalNoise();
+  /// creases get that as σn, at least 0.02, curved patches 0.2, with which the faces between vertices fit best, and
+  /// patches whose normals differ by no more than their noise 1.3 and more (docs/defaults.md). A function has no noise.
+  /// Planes that come from distances have a σn of their own.
+  std::optional<double> sigmaNormal{};
   Placement placement = Placement::kCertified;
   bool triangles = false;  ///< Triangles instead of quads.
   bool normals = false;    ///< Also a normal per vertex: the mean of its crossings' normals.
@@ -63,8 +64,10 @@ struct ContourReport {
   std::size_t drawnIn = 0;                 ///< Vertices drawn back into their cells all the way.
   std::size_t forcedDiagonals = 0;         ///< Quads split along the diagonal of larger quadric error.
   std::size_t fans = 0;                    ///< Quads replaced by triangles about the crossing of their lattice edge.
-  double normalNoise = 0;                  ///< Estimated where σn came from the data; else 0.
-  std::size_t uncertified = 0;             ///< Pairs of faces that still meet where they should not: see contour().
+  double normalNoise = 0;  ///< See normalNoise(); estimated where σn came from the data and is not known, else 0.
+  double medianSigmaNormal = 0;   ///< Over all patches, where σn came from the data; else 0.
+  std::size_t creasePatches = 0;  ///< Patches with several planes from distances, which meet in a crease.
+  std::size_t uncertified = 0;    ///< Pairs of faces that still meet where they should not: see contour().
   /// Empty, or the quadric of each vertex, by its number in the mesh: the sum of the patch's probabilistic plane
   /// quadrics with the σn that placed it. Its origin is the vertex's position in the mesh, its unit the world unit, so
   /// that it is f(x) in world units squared for x = p − positions[i]; positive definite for 0 < σn. Vertices that

@@ -52,7 +52,7 @@ enum class PlaneOrigin {
 struct Input {
   std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
   double iso = 0;                               ///< In the grid's or the function's own units.
-  double sigmaNormal = kDefaultSigmaNormal;     ///< σn (no unit, >= 0 or infinite) that a scene says, or the default.
+  std::optional<double> sigmaNormal{};          ///< σn (no unit, >= 0 or infinite), if a scene says one.
   FieldPtr field{};  ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
   PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
   double valueNoise = 0;         ///< Standard deviation of the values' noise in voxels where it was estimated; else 0.

@@ -37,6 +37,9 @@ struct SourceKnowledge {
   /// Normals are the surface's own at each crossing, not means over the cells about it: where the planes of a cell's
   /// crossings meet, there is a crease or a corner.
   bool exactNormals = false;
+  /// fillFeaturePlanes() tells of all creases that there are: patches without such planes are smooth, and normals that
+  /// do not agree there are wrong.
+  bool allCreases = false;
   Noise noise = Noise::kNone;
 };
 

@@ -49,14 +49,18 @@ struct BlockVertexSolver::Scratch {
         level(l),
         linear(map.affine() ? map.jacobian({}) : Mat3d{}),
         commonMetric(blockMetric(map, {})),
-        sampler(source),
+        sampler(source, sigma.needsNoise()),
         patchSolver(sampler, crossings, solver) {}
 
   /// Samples a block.
   void sample(const SurfaceBlock& block, const BlockTopology& topology, const CellMetric& metric, const Vec3d& origin,
               VertexCounts& counts) {
+    sampler.run(block, topology, metric);
+    counts.agreement += sampler.agreement();
+    counts.creases += static_cast<std::size_t>(
+        std::ranges::count_if(sampler.features().patches, [](const FeaturePlanes::Patch& p) { return p.count > 1; }));
+    solver.setNoise(sampler.normalNoise());
     const SigmaNormal& sigma = solver.sigma();
-    sampler.run(block, topology);
     counts.crossings += topology.quadCount;
     counts.withoutNormal += crossings.fill(sampler.hermite(), block.edges, metric, map, origin, level);
     Sigma_n = matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());
@@ -66,9 +70,9 @@ struct BlockVertexSolver::Scratch {
     if (!sigma.ofPatches()) Sigma_n = {};
   }
 
-  /// \param sigmaOf see PatchLanes::setUp().
-  template <typename SigmaOf>
-  void run(const BlockState& block, const SigmaOf& sigmaOf) {
+  /// \param spreadOf see PatchLanes::measure(); only where σn is of patches.
+  template <bool kOfPatches, typename SpreadOf>
+  void run(const BlockState& block, const SpreadOf& spreadOf) {
     const PatchList& patches = sampler.patches();
     const std::size_t count = patches.size();
     if (!solver.batched()) {
@@ -79,11 +83,18 @@ struct BlockVertexSolver::Scratch {
       } else {
         sums.add<false>(patches, crossings, block.edges, {});
       }
+      if constexpr (!kOfPatches) std::ranges::fill(lanes.variance, 1.0F);  // Sigma_n has it.
       const auto inCell = static_cast<float>(block.cellHalfSize);
       const float snapped = block.notesSuspects() ? static_cast<float>(block.cellHalfSize + kSnap) : 0.0F;
       for (std::size_t first = 0; first < count; first += kLanes) {
         const int used = static_cast<int>(std::min<std::size_t>(kLanes, count - first));
-        lanes.setUp(patches.patches().subspan(first), sums.lanes(first), Sigma_n, sigmaOf);
+        if constexpr (kOfPatches) {
+          lanes.measure(sums.lanes(first), spreadOf);
+          findResiduals(block, first, used);
+          lanes.chooseSigma(solver.sigma());
+          for (int lane = 0; lane < used; ++lane) block.counts.sigmas.count(RootHistogram::bin(lanes.variance[lane]));
+        }
+        lanes.setUp(patches.patches().subspan(first), sums.lanes(first), Sigma_n);
         solveLdlt(std::span<const NormalEquationsLanes<float>>(&lanes.system, 1),
                   std::span<SolutionLanes<float>>(&lanes.step, 1), level);
         lanes.place(inCell, snapped);
@@ -94,6 +105,17 @@ struct BlockVertexSolver::Scratch {
     }
     if (block.out.normals != nullptr)
       for (std::size_t i = 0; i < count; ++i) block.out.normals[block.firstVertex + i] = meanNormal(block, patches[i]);
+  }
+
+  /// Finds the residuals of those patches whose normals differ.
+  void findResiduals(const BlockState& block, std::size_t first, int used) {
+    constexpr auto kLeast = static_cast<float>(SigmaNormal::kLeastSpread);
+    if (!(maxLanes(lanes.excess) > kLeast)) return;
+    for (int lane = 0; lane < used; ++lane) {
+      if (!(lanes.excess[lane] > kLeast)) continue;
+      patchSolver.load(first + lane, block.edges);
+      lanes.residual[lane] = static_cast<float>(chordResidual(patchSolver.samples(), block.metric));
+    }
   }
 
   /// Vertices of a block are neighbours in memory.
@@ -188,7 +210,7 @@ struct BlockVertexSolver::Scratch {
   }
 
   const LatticeMap& map;
-  const VertexSolver solver;
+  VertexSolver solver;
   const SimdLevel level;
   const Mat3d linear;             ///< Only where the map is affine.
   const CellMetric commonMetric;  ///< Only where the map is affine.
@@ -222,15 +244,17 @@ void BlockVertexSolver::run(std::size_t index, const Surface& surface, const Ver
   const BlockState state{
       static_cast<std::int32_t>(index), topology.firstVertex, edges, metric, origin, cellHalfSize, out, counts};
   // Each way of choosing σn has a function of its own, small enough for the compiler to do its best.
-  const auto solveWith = [&](const auto& sigmaOf) { withSimd(scratch.level, [&] { scratch.run(state, sigmaOf); }); };
+  const auto solveWith = [&](const auto& spreadOf) {
+    withSimd(scratch.level, [&] { scratch.run<true>(state, spreadOf); });
+  };
   const SigmaNormal& sigma = scratch.solver.sigma();
   if (!sigma.ofPatches()) {
-    solveWith([](const SymMat3<float>&, float) { return 1.0F; });
+    withSimd(scratch.level, [&] { scratch.run<false>(state, nullptr); });
   } else if (metric.identity) {
-    solveWith([&sigma](const SymMat3<float>& A, float n) { return sigma.variance(A, n); });
+    solveWith([&sigma](const SymMat3<float>& A, float n) { return sigma.spread(A, n); });
   } else {
     const SymMat3<float> H = matrixCast(metric.inverseG());
-    solveWith([&sigma, H](const SymMat3<float>& A, float n) { return sigma.variance(A, n, H); });
+    solveWith([&sigma, H](const SymMat3<float>& A, float n) { return sigma.spread(A, n, H); });
   }
 }
 

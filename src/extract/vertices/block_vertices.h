@@ -8,17 +8,25 @@
 #include "extract/vertices/placed_quadrics.h"
 #include "extract/vertices/vertex_solver.h"
 #include "pdc/math/simd_level.h"
+#include "sample/normal_noise_histogram.h"
 
 namespace pdc::detail {
 
 struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
+  std::size_t creases = 0;  ///< Patches with several planes from distances.
+  // Where σn comes from the data:
+  NormalNoiseHistogram agreement{};  ///< Of the normals.
+  RootHistogram sigmas{};            ///< Of the patches' σn.
 
   VertexCounts& operator+=(const VertexCounts& c) {
     crossings += c.crossings;
     withoutNormal += c.withoutNormal;
     outOfCell += c.outOfCell;
     moved += c.moved;
+    creases += c.creases;
+    agreement += c.agreement;
+    sigmas += c.sigmas;
     return *this;
   }
 };

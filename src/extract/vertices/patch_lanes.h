@@ -7,6 +7,7 @@
 #include <span>
 
 #include "extract/vertices/patch_sums.h"
+#include "extract/vertices/sigma_normal.h"
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_lanes.h"
 
@@ -18,7 +19,10 @@ struct PatchLanes {
   alignas(64) std::uint32_t cell[kLanes];
   NormalEquationsLanes<float> system;  ///< About the mass points.
   SolutionLanes<float> step;
-  Vec3Lanes<float> mass;  ///< The mass points, from the low corner of the cell.
+  Vec3Lanes<float> mass;                            ///< The mass points, from the low corner of the cell.
+  alignas(64) float excess[kLanes], noise[kLanes];  ///< See PatchSpread; only where σn is of patches.
+  alignas(64) float residual[kLanes];               ///< See chordResidual(); 0 where it is not needed.
+  alignas(64) float variance[kLanes];               ///< The factor on Sigma_n.
   alignas(64) float reach[kLanes];
   alignas(64) float placed[12][kLanes];  ///< The members of PlacedQuadric, in order.
   alignas(64) float position[4][kLanes];
@@ -26,10 +30,7 @@ struct PatchLanes {
   /// Fills cells, systems and mass points. About its mass point a patch's right-hand side is small where the surface is
   /// flat, and so is what rounding does to the solution; and the noise of the normals adds to A alone (see
   /// normalNoiseQuadric()).
-  /// \param sigmaOf the factor on Sigma_n, from the patch's Σrrᵀ and its weight; 1 where σn is the same for all.
-  template <typename SigmaOf>
-  void setUp(std::span<const SurfacePatch> patches, const PatchSumLanes& sum, const SymMat3<float>& Sigma_n,
-             const SigmaOf& sigmaOf) {
+  void setUp(std::span<const SurfacePatch> patches, const PatchSumLanes& sum, const SymMat3<float>& Sigma_n) {
     const SymMat3<float> S = Sigma_n;
     for (std::size_t lane = 0; lane < kLanes; ++lane)
       cell[lane] = patches[std::min(lane, patches.size() - 1)].cell.number;
@@ -39,7 +40,25 @@ struct PatchLanes {
       const SymMat3<float> A = sum.A(i);
       mass.set(i, massPoint);
       system.b.set(i, sum.b(i) - A * massPoint);
-      system.A.set(i, A + S * (n * sigmaOf(A, n)));
+      system.A.set(i, A + S * (n * variance[i]));
+    });
+  }
+
+  /// Fills the spreads. \param spreadOf of a patch, from its Σrrᵀ and its weight.
+  template <typename SpreadOf>
+  void measure(const PatchSumLanes& sum, const SpreadOf& spreadOf) {
+    forEachLane([&](int i) {
+      const PatchSpread<float> s = spreadOf(sum.A(i), sum.weight(i));
+      excess[i] = s.excess;
+      noise[i] = s.noise;
+      residual[i] = 0;
+    });
+  }
+
+  /// Fills the variances from spreads and residuals.
+  void chooseSigma(const SigmaNormal& sigma) {
+    forEachLane([this, sigma](int i) {
+      variance[i] = sigma.variance(PatchSpread<float>{excess[i], noise[i]}, residual[i]);
     });
   }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "extract/vertices/cell_metric.h"
 #include "pdc/math/vec3.h"
 #include "pdc/sample/feature_planes.h"
 #include "sample/cell_edges.h"
@@ -24,6 +25,11 @@ struct PatchSamples {
   std::span<const FeaturePlanes::Plane> features{};
   double featureSigma = 0;  ///< σn of them.
 };
+
+/// How far the normals of a patch disagree with where its crossings lie: the mean over all pairs of crossings, each
+/// with itself too, of s² with s = (n₁ + n₂) · (p₂ − p₁) / |p₂ − p₁|. On a surface that bends evenly the mean of two
+/// normals is perpendicular to the chord, to third order; beside a crease or with noise it is not.
+[[nodiscard]] double chordResidual(const PatchSamples& samples, const CellMetric& metric);
 
 /// Mean squared distance of a place from the planes that place the vertex, in voxels squared; planes from distances
 /// count by their weights.

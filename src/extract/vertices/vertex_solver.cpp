@@ -62,7 +62,7 @@ PatchQuadric VertexSolver::plainQuadric(const PatchSamples& samples, const CellM
   }
   const Vec3d massPoint = positions * (1 / n);
   if (std::isinf(mSigma.variance())) return {normalNoiseQuadric(metric.G, n, positions, squares), massPoint};
-  const double variance = varianceOf(q.A, n, metric);
+  const double variance = varianceOf(q.A, n, samples, metric);
   if (variance != 0) q += normalNoiseQuadric(metric.G * variance, n, positions, variance * squares);
   return {q, massPoint};
 }
@@ -79,14 +79,18 @@ PatchQuadric VertexSolver::noisyQuadric(const PatchSamples& samples, const CellM
     weight += samples.weight[i];
     squares += samples.weight[i] * quadraticForm(metric.G, p);
   }
-  const double variance = varianceOf(q.A, weight, metric);
+  const double variance = varianceOf(q.A, weight, samples, metric);
   q += normalNoiseQuadric(metric.G * variance, weight, weighted, variance * squares);
   return {q, positions * (1 / double(samples.size))};
 }
 
-double VertexSolver::varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const {
+double VertexSolver::varianceOf(const SymMat3<double>& A, double weight, const PatchSamples& samples,
+                                const CellMetric& metric) const {
   if (!mSigma.ofPatches()) return mSigma.variance();
-  return metric.identity ? mSigma.variance(A, weight) : mSigma.variance(A, weight, metric.inverseG());
+  const PatchSpread<double> spread =
+      metric.identity ? mSigma.spread(A, weight) : mSigma.spread(A, weight, metric.inverseG());
+  const double residual = spread.excess > SigmaNormal::kLeastSpread ? chordResidual(samples, metric) : 0;
+  return mSigma.variance(spread, residual);
 }
 
 SolvedVertex VertexSolver::minimize(const PatchQuadric& patch, const CellMetric& metric) const {

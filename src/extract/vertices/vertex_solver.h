@@ -38,6 +38,8 @@ class VertexSolver {
   /// \param halfSize how far vertices may lie from the centre of their cell along an axis, in lattice units.
   VertexSolver(const SigmaNormal& sigma, double halfSize);
 
+  /// See SigmaNormal.
+  void setNoise(double noise) { mSigma.setNoise(noise); }
   [[nodiscard]] SolvedVertex solve(const PatchSamples& samples, const CellMetric& metric) const;
   /// The quadric that solve() minimises.
   [[nodiscard]] PatchQuadric quadric(const PatchSamples& samples, const CellMetric& metric) const;
@@ -50,7 +52,8 @@ class VertexSolver {
 
  private:
   /// σn² of a patch whose planes sum up to A.
-  [[nodiscard]] double varianceOf(const SymMat3<double>& A, double weight, const CellMetric& metric) const;
+  [[nodiscard]] double varianceOf(const SymMat3<double>& A, double weight, const PatchSamples& samples,
+                                  const CellMetric& metric) const;
   [[nodiscard]] PatchQuadric plainQuadric(const PatchSamples& samples, const CellMetric& metric) const;
   [[nodiscard]] PatchQuadric noisyQuadric(const PatchSamples& samples, const CellMetric& metric) const;
   /// The minimiser of a regular quadric within the bounds.

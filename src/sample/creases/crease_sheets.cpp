@@ -15,21 +15,8 @@ namespace {
 
 /// Samples with less support found no sheet.
 constexpr float kLeastSeed = 0.02F;
-/// Normals noisier than this do not say best how a sheet lies.
-constexpr double kNoisy = 0.01;
 /// Curvatures that are common, per voxel: noise in the normals that would look larger is smoothed away.
 constexpr double kUsualBend = 0.1;
-
-/// Sums over the samples of a sheet: of their support, and, by their fit weights, of ones, normals n, foot points f,
-/// the six products f fᵀ and the nine n fᵀ.
-struct Moments {
-  enum { kSupport, kFitWeight, kNormal, kFoot = kNormal + 3, kFootFoot = kFoot + 3, kNormalFoot = kFootFoot + 6 };
-  static constexpr int kCount = kNormalFoot + 9;
-  alignas(64) std::array<std::array<float, kLanes>, kCount> lanes{};
-  std::array<double, kCount> sum;
-
-  [[nodiscard]] Vec3d vector(int first) const { return {sum[first], sum[first + 1], sum[first + 2]}; }
-};
 
 /// The blocks of lanes in which a sample has support, a bit each.
 using LiveBlocks = std::uint64_t;
@@ -88,8 +75,8 @@ Vec3f meanNormal(SurfaceSamples& samples, LiveBlocks live, const Vec3f& mean) {
 
 /// Sums over the samples whose normals are like `mean`, and takes their support from them. \param inSheet gets their
 /// fit weights, and 0 for other samples, in live blocks.
-void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, Moments& moments, float* inSheet) {
-  auto& sum = moments.lanes;
+void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, SheetMoments& moments, float* inSheet) {
+  alignas(64) std::array<std::array<float, kLanes>, SheetMoments::kCount> sum{};
   for (LiveBlocks blocks = live; blocks != 0; blocks &= blocks - 1) {
     const int block = std::countr_zero(blocks);
     const LanePointers p(samples, block);
@@ -105,50 +92,51 @@ void takeLike(SurfaceSamples& samples, LiveBlocks& live, const Vec3f& mean, Mome
       fitWeight[lane] = like ? 0.0F : fitWeight[lane];
       own[lane] = t;
       const Vec3f f{fx[lane], fy[lane], fz[lane]}, tn = n * t, tf = f * t;
-      sum[Moments::kSupport][lane] += s;
-      sum[Moments::kFitWeight][lane] += t;
+      sum[SheetMoments::kSupport][lane] += s;
+      sum[SheetMoments::kFitWeight][lane] += t;
       const auto add = [&](int first, float x, float y, float z) {
         sum[first][lane] += x;
         sum[first + 1][lane] += y;
         sum[first + 2][lane] += z;
       };
-      add(Moments::kNormal, tn.x, tn.y, tn.z);
-      add(Moments::kFoot, tf.x, tf.y, tf.z);
-      add(Moments::kFootFoot, tf.x * f.x, tf.x * f.y, tf.x * f.z);
-      add(Moments::kFootFoot + 3, tf.y * f.y, tf.y * f.z, tf.z * f.z);
-      add(Moments::kNormalFoot, tn.x * f.x, tn.x * f.y, tn.x * f.z);
-      add(Moments::kNormalFoot + 3, tn.y * f.x, tn.y * f.y, tn.y * f.z);
-      add(Moments::kNormalFoot + 6, tn.z * f.x, tn.z * f.y, tn.z * f.z);
+      add(SheetMoments::kNormal, tn.x, tn.y, tn.z);
+      add(SheetMoments::kFoot, tf.x, tf.y, tf.z);
+      add(SheetMoments::kFootFoot, tf.x * f.x, tf.x * f.y, tf.x * f.z);
+      add(SheetMoments::kFootFoot + 3, tf.y * f.y, tf.y * f.z, tf.z * f.z);
+      add(SheetMoments::kNormalFoot, tn.x * f.x, tn.x * f.y, tn.x * f.z);
+      add(SheetMoments::kNormalFoot + 3, tn.y * f.x, tn.y * f.y, tn.y * f.z);
+      add(SheetMoments::kNormalFoot + 6, tn.z * f.x, tn.z * f.y, tn.z * f.z);
     });
     if (!(maxLanes(support) > 0)) live &= ~(LiveBlocks{1} << block);
   }
-  for (int k = 0; k < Moments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k].data())};
+  for (int k = 0; k < SheetMoments::kCount; ++k) moments.sum[k] = double{sumLanes(sum[k].data())};
 }
 
 /// The plane through the mean foot point with the mean normal.
-CreaseSheet meanSheet(const Moments& moments) {
-  const double fitWeight = moments.sum[Moments::kFitWeight];
+CreaseSheet meanSheet(const SheetMoments& moments) {
+  const double fitWeight = moments.sum[SheetMoments::kFitWeight];
   CreaseSheet sheet{};
-  sheet.support = moments.sum[Moments::kSupport];
-  sheet.center = moments.vector(Moments::kFoot) * (1 / fitWeight);
-  const Vec3d sum = moments.vector(Moments::kNormal);
+  sheet.support = moments.sum[SheetMoments::kSupport];
+  sheet.moments = moments;
+  sheet.center = moments.vector(SheetMoments::kFoot) * (1 / fitWeight);
+  const Vec3d sum = moments.vector(SheetMoments::kNormal);
   sheet.normal = sum * (1 / length(sum));
   return sheet;
 }
 
 /// Bends a plane as the change of the normals says.
-void bendSheet(const Moments& moments, double normalNoise, CreaseSheet& sheet) {
+void bendSheet(const SheetMoments& moments, double normalNoise, CreaseSheet& sheet) {
   const auto& sum = moments.sum;
-  const double fitWeight = sum[Moments::kFitWeight];
+  const double fitWeight = sum[SheetMoments::kFitWeight];
   // Least squares for n(p) − mean = H(p − center), with a ridge.
-  const double* ff = &sum[Moments::kFootFoot];
+  const double* ff = &sum[SheetMoments::kFootFoot];
   const SymMat3<double> spread =
       SymMat3<double>{ff[0], ff[1], ff[2], ff[3], ff[4], ff[5]} - outer(sheet.center) * fitWeight;
   const double noise = normalNoise / kUsualBend;
   const SymMat3<double> damped = spread.plusDiagonal((0.01 + noise * noise) * fitWeight);
-  const Vec3d normals = moments.vector(Moments::kNormal);
+  const Vec3d normals = moments.vector(SheetMoments::kNormal);
   for (int k = 0; k < 3; ++k) {
-    const Vec3d turn = moments.vector(Moments::kNormalFoot + 3 * k) - sheet.center * normals[k];
+    const Vec3d turn = moments.vector(SheetMoments::kNormalFoot + 3 * k) - sheet.center * normals[k];
     const auto row = solveLdlt(damped, turn);
     sheet.bend.row[k] = row ? *row : Vec3d{};
   }
@@ -175,11 +163,10 @@ void CreaseSheets::dropUnsupported(double share) {
     if (sheet[i].support < share * most) drop(i);
 }
 
-CreaseSheets findSheets(SurfaceSamples& samples, double normalNoise, SimdLevel level) {
+CreaseSheets findSheets(SurfaceSamples& samples, double normalNoise, SheetWeights& weights, SimdLevel level) {
   CreaseSheets sheets;
-  alignas(64) std::array<float, SurfaceSamples::kCapacity> inSheet;
   LiveBlocks live = allBlocks(samples);
-  const bool noisy = normalNoise > kNoisy;
+  const bool noisy = isNoisy(normalNoise);
   withSimd(level, [&] {
     while (sheets.count < CreaseSheets::kMax) {
       const int seed = findSeed(samples, live);
@@ -187,19 +174,41 @@ CreaseSheets findSheets(SurfaceSamples& samples, double normalNoise, SimdLevel l
       const Vec3f founder = samples.normal(seed);
       Vec3f mean = meanNormal(samples, live, meanNormal(samples, live, founder));
       if (!(dot(founder, mean) > kSheetCosine)) mean = founder;
-      Moments moments;
+      SheetMoments moments;
+      auto& inSheet = weights.of[sheets.count];
       if (noisy) std::fill_n(inSheet.begin(), samples.blocks() * kLanes, 0.0F);
       takeLike(samples, live, mean, moments, inSheet.data());
       CreaseSheet& sheet = sheets.sheet[sheets.count++];
       sheet = meanSheet(moments);
       if (noisy) {
-        sheet = fitNoisySheet(samples, inSheet.data(), sheet, normalNoise, level);
+        const NoisyFit fit = fitNoisySheet(samples, inSheet.data(), sheet, normalNoise, level);
+        sheet = fit.sheet;
+        sheet.heightError = fit.heightError;
       } else {
         bendSheet(moments, normalNoise, sheet);
       }
+      sheet.number = sheets.count - 1;
     }
   });
   return sheets;
+}
+
+CreaseSheet joinSheets(const SurfaceSamples& samples, const CreaseSheet& a, const CreaseSheet& b, double normalNoise,
+                       SheetWeights& weights, SimdLevel level) {
+  SheetMoments moments = a.moments;
+  moments += b.moments;
+  CreaseSheet joined = meanSheet(moments);
+  joined.number = a.number;
+  if (isNoisy(normalNoise)) {
+    const auto &ofA = weights.of[a.number], &ofB = weights.of[b.number];
+    for (int i = 0; i < samples.blocks() * kLanes; ++i) weights.joined[i] = ofA[i] + ofB[i];
+    const NoisyFit fit = fitNoisySheet(samples, weights.joined.data(), joined, normalNoise, level);
+    joined = fit.sheet;
+    joined.heightError = fit.heightError;
+  } else {
+    bendSheet(moments, normalNoise, joined);
+  }
+  return joined;
 }
 
 Vec3d meetingPoint(std::span<const CreaseSheet> sheets, const Vec3d& start, double sigma) {

@@ -12,6 +12,7 @@
 #include "sample/creases/crease_sheets.h"
 #include "sample/creases/gradient_jumps.h"
 #include "sample/creases/sheet_selection.h"
+#include "sample/creases/smooth_sheets.h"
 #include "sample/creases/voxel_planes.h"
 
 namespace pdc::detail {
@@ -39,6 +40,28 @@ float creaseJump(const DistanceModel& model) {
 
 /// Sheets with less than this share of the largest support are samples that noise has turned aside.
 double leastShare(double noise) { return std::min(0.1, 10 * noise * noise); }
+
+/// Sheets that bend more, per voxel, hold too few samples for a good fit: crossings then serve better.
+constexpr double kMostBend = 0.3;
+
+/// Vertices on a sheet make faces that lie inside of it, by a twelfth of the trace of its bend in the mean over squares
+/// of one voxel: half-way out the faces' mean is on it.
+constexpr double kFaceSag = 1.0 / 12;
+
+/// How far crossings may be from a smooth sheet without a crease nearby, RMS.
+double mostSheetError(double noise) { return 0.03 + 2 * noise; }
+
+/// How far crossings may be from the nearest of several sheets: linear ones miss creases by more the more these turn.
+/// On fillets of one voxel or two, which look like creases from farther away, they are off by more.
+/// \param cosine of the normals that differ most.
+double mostCreaseError(double noise, double cosine) { return 0.12 + 0.125 * (1 - cosine) + 1.5 * noise; }
+
+double leastCosine(const CreaseSheets& sheets) {
+  double least = 1;
+  for (const CreaseSheet& a : sheets.all())
+    for (const CreaseSheet& b : sheets.all()) least = std::min(least, dot(a.normal, b.normal));
+  return least;
+}
 
 /// The standard deviation that is expected of each component of a sample's normal.
 double normalNoise(double noise) { return kNormalNoise * noise; }
@@ -128,11 +151,25 @@ class PlaneFinder {
     const SurfacePatch& patch = mBlock.patches[i];
     mCell = patch.cell.low();
     mVoxels.gather(mCell, mSamples);
-    CreaseSheets sheets = findSheets(mSamples, normalNoise(mModel.noise));
+    const double noise = mModel.noise;
+    CreaseSheets sheets = findSheets(mSamples, normalNoise(noise), mWeights);
     if (sheets.count == 0) return;
-    sheets.dropUnsupported(leastShare(mModel.noise));
-    const Vec3d y = mSelection.select(crossingsOf(patch), sheets);
-    write(sheets, y);
+    sheets.dropUnsupported(leastShare(noise));
+    joinSmoothSheets(mSamples, normalNoise(noise), sheets, mWeights);
+    const PatchCrossings crossings = crossingsOf(patch);
+    CreaseSheets met = sheets;
+    const Vec3d y = mSelection.select(crossings, met);
+    const double error = mSelection.crossingError(crossings, sheets.all());
+    if (met.count > 1) {
+      if (error <= mostCreaseError(noise, leastCosine(met))) write(met, y);
+      return;
+    }
+    const int best = mSelection.nearest(crossings, sheets.all());
+    CreaseSheets one;
+    one.sheet[one.count++] = sheets.sheet[best];
+    if (one.sheet[0].bendSize() > kMostBend || (sheets.count == 1 && error > mostSheetError(noise))) return;
+    one.sheet[0].offset += kFaceSag * one.sheet[0].traceOfBend();
+    write(one, mSelection.meeting(crossings, one.all()));
   }
 
   [[nodiscard]] PatchCrossings crossingsOf(const SurfacePatch& patch) const {
@@ -180,6 +217,7 @@ class PlaneFinder {
   GradientJumps mJumps;
   VoxelPlanes mVoxels;
   SurfaceSamples mSamples;
+  SheetWeights mWeights;
   std::uint32_t mPatch = 0;
   Coord mCell{};
 };

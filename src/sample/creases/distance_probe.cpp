@@ -90,11 +90,14 @@ DistanceProbe probeDistances(const std::vector<Coord>& blocks, const Mat3d& K,
   if (!std::isfinite(third)) return probe;
   const double byThirds = third / (kQuartile * std::sqrt(20.0));
   // Most grids of solids need no more quantiles: they take longer than all the rest.
-  const auto rough = [&] {
-    return std::min(byThirds, quantile(sizes.fourths, 0.25) / (kQuartile * std::sqrt(70.0))) > kRough;
-  };
+  const auto byFourths = [&] { return quantile(sizes.fourths, 0.25) / (kQuartile * std::sqrt(70.0)); };
+  const auto rough = [&] { return std::min(byThirds, byFourths()) > kRough; };
   const auto gaussian = [&] { return quantile(sizes.thirds, 0.1) > kLeastDecile * third; };
-  (byThirds > kRough && rough() && !gaussian() ? probe.texture : probe.noise) = byThirds;
+  if (byThirds > kRough && rough() && !gaussian()) {
+    probe.texture = byThirds;
+  } else {
+    probe.noise = byThirds > kRough ? std::min(byThirds, byFourths()) : byThirds;
+  }
   return probe;
 }
 

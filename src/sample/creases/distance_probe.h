@@ -24,8 +24,9 @@ inline constexpr std::size_t kProbeBlocks = 64;
 /// Looks at the values of some blocks, in parallel.
 ///
 /// Slopes are central differences within two voxels of the surface. Noise is the first quartile of the sizes of third
-/// differences along the axes, over what it is for Gaussian noise of deviation 1: smooth surfaces have third
-/// differences of the order of their curvature's square, and creases move a quartile less than a median. Where most
+/// differences along the axes, over what it is for Gaussian noise of deviation 1, or that of fourth ones if it is less:
+/// smooth surfaces have third differences of the order of their curvature's square, and fourth ones of its cube, and
+/// creases move a quartile less than a median. Where most
 /// voxels are beside a crease it is still up to half too high. It is texture instead where fourth differences are as
 /// large, which curvature's are not, but the third ones are not spread as Gaussian noise spreads them: surfaces rough
 /// at the size of a voxel, as scanned meshes are, have many small ones. \param K from steps in world space, in voxels,

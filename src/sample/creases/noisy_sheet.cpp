@@ -1,5 +1,6 @@
 #include "sample/creases/noisy_sheet.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,9 +11,9 @@ namespace {
 
 // Chosen with bench/feature_eval on the tuning shapes, noise 0.02 and 0.1.
 
-/// Bends that are expected, per voxel. Where they are larger noise of 0.02 voxels hides them: with 0.1 the edges of a
-/// cylinder were 10 % more exact, those of flat sheets 12 to 18 % less.
-constexpr double kUsualBend = 0.02;
+/// Bends that are expected, per voxel, at most, and where noise hides them. Of flat sheets those fitted with noise of
+/// 0.1 voxel are some 0.05.
+constexpr double kMostBend = 0.3, kLeastBend = 0.02;
 /// What is wrong with heights and normals besides noise, in voxels and without unit.
 constexpr double kHeightError = 0.01, kNormalError = 0.01;
 
@@ -42,6 +43,10 @@ Vector solve(Matrix A, Vector b) {
   return b;
 }
 
+/// Each unknown's powers of u and v, and its factor.
+constexpr int kU[] = {0, 1, 0, 2, 1, 0}, kV[] = {0, 0, 1, 0, 1, 2};
+constexpr double kFactor[] = {1, 1, 1, 0.5, 1, 0.5};
+
 /// Axes of a tangent plane, and its normal.
 struct Frame {
   explicit Frame(const Vec3d& normal) : n(normal) {
@@ -58,6 +63,7 @@ struct Sums {
   double power[5][5] = {};   ///< Sums of u^i v^j, where i + j ≤ 4.
   double height[3][3] = {};  ///< Sums of w u^i v^j, where i + j ≤ 2.
   double slope[2][3] = {};   ///< Sums of m · e1 and m · e2, times 1, u and v.
+  double squares = 0;        ///< Sum of w².
 };
 
 Sums sumUp(const SurfaceSamples& samples, const float* fitWeight, const Vec3f& center, const Frame& frame,
@@ -65,7 +71,8 @@ Sums sumUp(const SurfaceSamples& samples, const float* fitWeight, const Vec3f& c
   constexpr int kPowers = 15, kHeights = 6, kSlopes = 6;
   constexpr int kOf[kPowers][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1},
                                    {1, 2}, {0, 3}, {4, 0}, {3, 1}, {2, 2}, {1, 3}, {0, 4}};
-  alignas(64) float power[kPowers][kLanes] = {}, height[kHeights][kLanes] = {}, slope[kSlopes][kLanes] = {};
+  alignas(64) float power[kPowers][kLanes] = {}, height[kHeights][kLanes] = {}, slope[kSlopes][kLanes] = {},
+                    squares[kLanes] = {};
   const Vec3f e1 = vecCast<float>(frame.e1), e2 = vecCast<float>(frame.e2), n = vecCast<float>(frame.n);
   forEachBatch(level, static_cast<std::size_t>(samples.blocks()), [&](std::size_t block) {
     const auto column = [&](int c) { return &samples.column[c][block * kLanes]; };
@@ -83,6 +90,7 @@ Sums sumUp(const SurfaceSamples& samples, const float* fitWeight, const Vec3f& c
                                 t * uu * uu, t * uu * uv, t * uu * vv, t * uv * vv, t * vv * vv};
       for (int k = 0; k < kPowers; ++k) power[k][lane] += p[k];
       for (int k = 0; k < kHeights; ++k) height[k][lane] += p[k] * w;
+      squares[lane] += t * w * w;
       const float s[kSlopes] = {m1, m1 * u, m1 * v, m2, m2 * u, m2 * v};
       for (int k = 0; k < kSlopes; ++k) slope[k][lane] += s[k];
     });
@@ -91,17 +99,16 @@ Sums sumUp(const SurfaceSamples& samples, const float* fitWeight, const Vec3f& c
   for (int k = 0; k < kPowers; ++k) sums.power[kOf[k][0]][kOf[k][1]] = double{sumLanes(power[k])};
   for (int k = 0; k < kHeights; ++k) sums.height[kOf[k][0]][kOf[k][1]] = double{sumLanes(height[k])};
   for (int k = 0; k < kSlopes; ++k) sums.slope[k / 3][k % 3] = double{sumLanes(slope[k])};
+  sums.squares = double{sumLanes(squares)};
   return sums;
 }
 
 /// The paraboloid that fits heights and slopes best.
-Vector fit(const Sums& s, double normalNoise) {
+/// \param usualBend that is expected.
+Vector fit(const Sums& s, double normalNoise, double usualBend) {
   const double heightNoise = normalNoise / kNormalNoise;
   const double ofHeight = 1 / (heightNoise * heightNoise + kHeightError * kHeightError),
                ofNormal = 1 / (normalNoise * normalNoise + kNormalError * kNormalError);
-  // Each unknown's powers of u and v, and its factor.
-  constexpr int kU[] = {0, 1, 0, 2, 1, 0}, kV[] = {0, 0, 1, 0, 1, 2};
-  constexpr double kFactor[] = {1, 1, 1, 0.5, 1, 0.5};
   Matrix A{};
   Vector b{};
   for (int i = 0; i < kUnknowns; ++i) {
@@ -117,16 +124,31 @@ Vector fit(const Sums& s, double normalNoise) {
       b[kUnknown[axis][i]] -= ofNormal * s.slope[axis][i];
     }
   constexpr double kTiny = 1e-3;  // Samples in one place leave slopes open.
-  for (int i = 0; i < kUnknowns; ++i) A[i][i] += i < 3 ? kTiny : 1 / (kUsualBend * kUsualBend);
+  for (int i = 0; i < kUnknowns; ++i) A[i][i] += i < 3 ? kTiny : 1 / (usualBend * usualBend);
   return solve(A, b);
+}
+
+/// What a paraboloid leaves of the squares of the heights.
+double heightError(const Sums& s, const Vector& p) {
+  double error = s.squares;
+  for (int i = 0; i < kUnknowns; ++i) {
+    error -= 2 * p[i] * kFactor[i] * s.height[kU[i]][kV[i]];
+    for (int j = 0; j < kUnknowns; ++j)
+      error += p[i] * p[j] * kFactor[i] * kFactor[j] * s.power[kU[i] + kU[j]][kV[i] + kV[j]];
+  }
+  return std::max(error, 0.0);
 }
 
 }  // namespace
 
-CreaseSheet fitNoisySheet(const SurfaceSamples& samples, const float* fitWeight, const CreaseSheet& sheet,
-                          double normalNoise, SimdLevel level) {
+NoisyFit fitNoisySheet(const SurfaceSamples& samples, const float* fitWeight, const CreaseSheet& sheet,
+                       double normalNoise, SimdLevel level) {
   const Frame f(sheet.normal);
-  const Vector p = fit(sumUp(samples, fitWeight, vecCast<float>(sheet.center), f, level), normalNoise);
+  const Sums sums = sumUp(samples, fitWeight, vecCast<float>(sheet.center), f, level);
+  // Bends that are no larger than what noise makes of flat sheets are taken for that.
+  const Vector free = fit(sums, normalNoise, kMostBend);
+  const double bend = std::sqrt(free[3] * free[3] + 2 * free[4] * free[4] + free[5] * free[5]);
+  const Vector p = fit(sums, normalNoise, std::max(kLeastBend, bend * bend / (bend + normalNoise)));
   CreaseSheet fitted = sheet;
   const Vec3d gradient = f.n - f.e1 * p[1] - f.e2 * p[2];
   const double l = length(gradient);
@@ -135,7 +157,7 @@ CreaseSheet fitNoisySheet(const SurfaceSamples& samples, const float* fitWeight,
   for (int k = 0; k < 3; ++k)
     fitted.bend.row[k] =
         (f.e1 * (p[3] * f.e1[k] + p[4] * f.e2[k]) + f.e2 * (p[4] * f.e1[k] + p[5] * f.e2[k])) * (-1 / l);
-  return fitted;
+  return {fitted, heightError(sums, p)};
 }
 
 }  // namespace pdc::detail

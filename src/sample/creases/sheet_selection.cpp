@@ -86,6 +86,31 @@ Vec3d SheetSelection::meeting(const PatchCrossings& crossings, std::span<const C
   return meetingPoint(sheets, crossings.massPoint, double{sheetSigma(mNoise)});
 }
 
+double SheetSelection::crossingError(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const {
+  double squares = 0;
+  for (int c = 0; c < crossings.count; ++c) {
+    const PatchCrossings::Edge& e = crossings.edge[c];
+    const auto corner = [&](int i) { return Vec3d{mX[i], mY[i], mZ[i]}; };
+    const Vec3d at = corner(e.inside) * (1 - e.t) + corner(e.outside) * e.t;
+    double least = std::numeric_limits<double>::infinity();
+    for (const CreaseSheet& s : sheets) least = std::min(least, std::abs(s.value(at)));
+    squares += least * least;
+  }
+  return std::sqrt(squares / crossings.count);
+}
+
+int SheetSelection::nearest(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const double error = crossingError(crossings, sheets.subspan(i, 1));
+    if (error >= least) continue;
+    least = error;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
 void SheetSelection::keepCrossedOrMeeting(const PatchCrossings& crossings, CreaseSheets& sheets) const {
   if (sheets.count < 2) return;
   Flags crossed = crossedSheets(crossings, sheets);

@@ -37,12 +37,18 @@ class SheetSelection {
   /// where those that are left meet.
   Vec3d select(const PatchCrossings& crossings, CreaseSheets& sheets) const;
 
+  /// Where sheets meet, nearest to the mean of the crossings.
+  [[nodiscard]] Vec3d meeting(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const;
+  /// How far crossings are from the sheet that is nearest to each, RMS, in voxels.
+  [[nodiscard]] double crossingError(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const;
+  /// The sheet that is nearest to all crossings.
+  [[nodiscard]] int nearest(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const;
+
  private:
   static constexpr int kCorners = 8;
   using AtCorners = std::array<double, kCorners>;
   using Flags = std::array<bool, CreaseSheets::kMax>;
 
-  [[nodiscard]] Vec3d meeting(const PatchCrossings& crossings, std::span<const CreaseSheet> sheets) const;
   void keepCrossedOrMeeting(const PatchCrossings& crossings, CreaseSheets& sheets) const;
   [[nodiscard]] Flags crossedSheets(const PatchCrossings& crossings, const CreaseSheets& sheets) const;
   void valueAtCorners(const CreaseSheet& sheet, AtCorners& value) const;

@@ -142,6 +142,7 @@ SourceKnowledge GridSource::knowledge() const {
   using Noise = SourceKnowledge::Noise;
   const detail::NoiseGrids& noise = mImpl->noise;
   return {.exactNormals = false,
+          .allCreases = usesDistances(),
           .noise = noise.hasSigma() ? Noise::kSigma
                    : noise.any()    ? Noise::kWeights
                                     : Noise::kNone};

@@ -35,7 +35,7 @@ class Patches {
       const EdgeIndex edges(mBlocks.signs[i]);
       const Vec3d origin = blockOrigin(mBlocks.coords[i]);
       const CellMetric metric = blockMetric(mSource.map(), origin);
-      mSampler.run({mBlocks.coords[i], mBlocks.signs[i], edges}, mTopology.blocks[i]);
+      mSampler.run({mBlocks.coords[i], mBlocks.signs[i], edges}, mTopology.blocks[i], metric);
       mCrossings.fill(mSampler.hermite(), edges, metric, mSource.map(), origin, bestSimdLevel());
       for (std::size_t k = 0; k < mSampler.patches().size(); ++k) {
         mSolver.load(k, edges);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <vector>
 
@@ -20,9 +20,8 @@
 namespace pdc {
 namespace {
 
+using detail::PatchSpread;
 using detail::SigmaNormal;
-
-constexpr std::optional<double> kFromData{};
 
 SymMat3<double> sumOf(std::initializer_list<Vec3d> normals) {
   SymMat3<double> A{};
@@ -36,23 +35,71 @@ TEST(SigmaNormal, OneForAllIsItsSquare) {
   EXPECT_EQ(sigma.variance(), 0.0625);
 }
 
-TEST(SigmaNormal, FlatPatchesGetMoreThanCreases) {
+/// σn where no residual tells of a crease, and where one tells of nothing else.
+double smoothSigma(const SigmaNormal& sigma, const SymMat3<double>& A, double weight) {
+  return std::sqrt(sigma.variance(sigma.spread(A, weight), 0.0));
+}
+double creaseSigma(const SigmaNormal& sigma, const SymMat3<double>& A, double weight) {
+  const PatchSpread<double> spread = sigma.spread(A, weight);
+  return std::sqrt(sigma.variance(spread, 0.55 * spread.excess));
+}
+
+TEST(SigmaNormal, FlatPatchesGetMoreThanCurvedOnesAndTheseMoreThanCreases) {
   const SigmaNormal sigma = SigmaNormal::ofNoise(0.05);
-  const double flat = sigma.variance(sumOf({{1, 0, 0}, {1, 0.04, 0}, {1, 0, -0.05}, {1, 0.02, 0.03}}), 4.0),
-               crease = sigma.variance(sumOf({{1, 1, 0}, {1, 1, 0.04}, {1, -1, 0}, {1, -1, 0.02}}), 4.0);
-  EXPECT_GT(std::sqrt(flat), 0.6);
-  EXPECT_LT(std::sqrt(crease), 0.075);
-  EXPECT_GT(std::sqrt(crease), 0.05);
+  const SymMat3<double> flat = sumOf({{1, 0, 0}, {1, 0.04, 0}, {1, 0, -0.05}, {1, 0.02, 0.03}}),
+                        bent = sumOf({{1, 1, 0}, {1, 1, 0.04}, {1, -1, 0}, {1, -1, 0.02}});
+  EXPECT_GT(smoothSigma(sigma, flat, 4), 1);
+  EXPECT_NEAR(smoothSigma(sigma, bent, 4), 0.22, 0.03);
+  EXPECT_LT(creaseSigma(sigma, bent, 4), 0.075);
+  EXPECT_GE(creaseSigma(sigma, bent, 4), 0.05);
+}
+
+TEST(SigmaNormal, WithoutNoiseFlatPatchesAreCurvedOnesToo) {
+  const SigmaNormal sigma = SigmaNormal::ofNoise(0);
+  EXPECT_NEAR(smoothSigma(sigma, sumOf({{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}), 3), std::hypot(0.2, 0.02), 1e-6);
+}
+
+// Normals that disagree with the chords by more than any crease makes them are noise.
+TEST(SigmaNormal, NormalsThatNoCreaseExplainsHaveNoInfluence) {
+  const SigmaNormal sigma = SigmaNormal::ofNoise(0);
+  const PatchSpread<double> spread = sigma.spread(sumOf({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), 3.0);
+  EXPECT_GT(sigma.variance(spread, 1.2 * spread.excess), 0.4);
+  EXPECT_LT(sigma.variance(spread, 0.5 * spread.excess), 0.0005);
+}
+
+TEST(SigmaNormal, IsContinuousInSpreadAndResidual) {
+  const SigmaNormal sigma = SigmaNormal::ofNoise(0.02);
+  constexpr int kSteps = 40000;
+  for (const double share : {0.0, 0.1, 0.45, 0.58, 0.62, 0.9, 1.1})
+    for (int i = 1; i < kSteps; ++i) {
+      const double e = 0.4 * i / kSteps, h = 0.4 / kSteps;
+      const double a = sigma.variance(PatchSpread<double>{e, 0.0004}, share * e),
+                   b = sigma.variance(PatchSpread<double>{e + h, 0.0004}, share * (e + h));
+      ASSERT_NEAR(std::log(a), std::log(b), 0.12) << e << ' ' << share;
+    }
 }
 
 TEST(SigmaNormal, APatchMayNotHaveNormals) {
-  EXPECT_GT(SigmaNormal::ofNoise(0.05).variance(SymMat3<double>{}, 3.0), 0);
-  EXPECT_GT(SigmaNormal::ofNoise(0.05).variance(SymMat3<float>{}, 3.0F), 0);
+  const SigmaNormal sigma = SigmaNormal::ofNoise(0.05);
+  EXPECT_GT(sigma.variance(sigma.spread(SymMat3<double>{}, 3.0), 0.0), 0);
+  EXPECT_GT(sigma.variance(sigma.spread(SymMat3<float>{}, 3.0F), 0.0F), 0);
 }
 
-/// σn² straight from the definition: planes with weights and variances of their own, whose mean is taken away again.
-double varianceByDefinition(const std::vector<Vec3d>& normals, const std::vector<double>& weights,
-                            double meanVariance) {
+/// A source whose normals have noise that it knows.
+class KnownNoise final : public HermiteSource {
+ public:
+  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor&) const override { return {}; }
+  [[nodiscard]] const LatticeMap& map() const override { return mMap; }
+  [[nodiscard]] SourceKnowledge knowledge() const override { return {.noise = SourceKnowledge::Noise::kSigma}; }
+  void fillHermite(const SurfaceBlock&, HermiteBlock&) const override {}
+
+ private:
+  LatticeMap mMap{Mat3d::identity(), Vec3d{}};
+};
+
+/// The spread straight from the definition: planes with weights and variances of their own, whose mean is taken away
+/// again.
+double excessByDefinition(const std::vector<Vec3d>& normals, const std::vector<double>& weights, double meanVariance) {
   Mat3d P{{Vec3d{}, Vec3d{}, Vec3d{}}};
   for (std::size_t i = 0; i < normals.size(); ++i)
     for (int k = 0; k < 3; ++k) P.row[k] += normals[i] * (normals[i][k] * weights[i]);
@@ -61,15 +108,14 @@ double varianceByDefinition(const std::vector<Vec3d>& normals, const std::vector
     trace += P.row[k][k];
     for (int j = 0; j < 3; ++j) traceOfSquare += P.row[k][j] * P.row[j][k];
   }
-  const double spread = (1 - traceOfSquare / (trace * trace)) / (0.01 + 4 * meanVariance);
-  const double flat = 0.7 + 4 * std::sqrt(meanVariance);
-  return 0.02 * 0.02 + flat * flat / (1 + spread * spread);
+  return std::max(0.0, 1 - traceOfSquare / (trace * trace) - 1.45 * meanVariance);
 }
 
 TEST(SigmaNormal, TakesEachPlanesOwnVarianceOutOfTheSpread) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const SigmaNormal sigma = SigmaNormal::ofOwnNoise();
+  const SigmaNormal sigma = SigmaNormal::fromData(KnownNoise());
+  EXPECT_FALSE(sigma.needsNoise());
   for (int round = 0; round < 200; ++round) {
     std::vector<Vec3d> normals;
     std::vector<double> weights;
@@ -85,7 +131,9 @@ TEST(SigmaNormal, TakesEachPlanesOwnVarianceOutOfTheSpread) {
       A += outer(n).plusDiagonal(variance) * w;
       weight += w;
     }
-    ASSERT_NEAR(sigma.variance(A, weight), varianceByDefinition(normals, weights, variance), 1e-9);
+    const PatchSpread<double> spread = sigma.spread(A, weight);
+    ASSERT_NEAR(spread.excess, excessByDefinition(normals, weights, variance), 1e-9);
+    ASSERT_NEAR(spread.noise, variance, 1e-9);
   }
 }
 
@@ -101,17 +149,7 @@ TEST(SigmaNormal, TheMetricDoesNotMatter) {
   }
   for (int i = 0; i < 3; ++i) H += outer(K.column(i));
   const SigmaNormal sigma = SigmaNormal::ofNoise(0.05);
-  EXPECT_NEAR(sigma.variance(lattice, 3.0, H), sigma.variance(world, 3.0), 1e-12);
-}
-
-// Own noise is in the matrix already; only what is flat gets more.
-TEST(SigmaNormal, OwnNoiseIsSeenInTheMatrix) {
-  const SymMat3<double> flat = sumOf({{1, 0, 0}, {1, 0.04, 0}, {1, 0, -0.05}});
-  const double noise = 0.15, v = noise * noise;
-  const SymMat3<double> own = flat + SymMat3<double>::identity() * (3 * v);
-  const double expected = SigmaNormal::ofNoise(noise).variance(flat, 3.0) - v + 0.02 * 0.02;
-  EXPECT_NEAR(SigmaNormal::ofOwnNoise().variance(own, 3.0), expected, 1e-9);
-  EXPECT_NEAR(SigmaNormal::ofOwnNoise().variance(own * 7.0, 21.0), expected, 1e-9);
+  EXPECT_NEAR(sigma.spread(lattice, 3.0, H).excess, sigma.spread(world, 3.0).excess, 1e-12);
 }
 
 // Why there is no option for tangential noise.
@@ -127,36 +165,54 @@ TEST(SigmaNormal, TangentialNoiseIsIsotropicNoiseOfAnotherSize) {
   EXPECT_LT(length(*solveLdlt(a.A, a.b) - *solveLdlt(b.A, b.b)), 1e-12);
 }
 
-double vertexRms(const Mesh& mesh, const Field& field) {
+/// Of some points, from a surface.
+double rms(const std::vector<Vec3d>& points, const Field& field) {
   double sum = 0;
-  for (const Vec3f& v : mesh.positions) {
-    const Vec3d p = vecCast<double>(v);
+  for (const Vec3d& p : points) {
     double value = 0;
     field.values({&p.x, &p.y, &p.z, 1}, &value);
     sum += value * value;
   }
-  return std::sqrt(sum / static_cast<double>(mesh.positions.size()));
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+double vertexRms(const Mesh& mesh, const Field& field) {
+  std::vector<Vec3d> points;
+  for (const Vec3f& v : mesh.positions) points.push_back(vecCast<double>(v));
+  return rms(points, field);
+}
+
+double faceRms(const Mesh& mesh, const Field& field) {
+  std::vector<Vec3d> centers;
+  for (const Quad& q : mesh.quads) {
+    Vec3d sum{};
+    for (const std::uint32_t v : q) sum += vecCast<double>(mesh.positions[v]);
+    centers.push_back(sum * 0.25);
+  }
+  return rms(centers, field);
 }
 
 TEST(SigmaFromData, ASphereIsRounderAndABoxAsSharp) {
   const Box bounds{{-1, -1, -1}, {1, 1, 1}};
   const FieldSource ball(sphere({}, 0.8), {.box = bounds, .voxelSize = 1.0 / 16});
   ContourReport report;
-  const Mesh fromData = contour(ball, {.sigmaNormal = kFromData}, &report);
-  EXPECT_LT(vertexRms(fromData, *sphere({}, 0.8)), 0.6 * vertexRms(contour(ball), *sphere({}, 0.8)));
-  EXPECT_GT(report.normalNoise, 0);
-  EXPECT_LT(report.normalNoise, 0.1);
+  const Mesh fromData = contour(ball, {}, &report), papers = contour(ball, {.sigmaNormal = kPapersSigmaNormal});
+  EXPECT_LT(vertexRms(fromData, *sphere({}, 0.8)), vertexRms(papers, *sphere({}, 0.8)));
+  EXPECT_LT(faceRms(fromData, *sphere({}, 0.8)), 1.1 * faceRms(papers, *sphere({}, 0.8)));
+  EXPECT_EQ(report.normalNoise, 0);
+  EXPECT_NEAR(report.medianSigmaNormal, 0.2, 0.02);
+  EXPECT_EQ(report.creasePatches, 0);
 
   const FieldPtr cube = rotate(box({}, {0.45, 0.45, 0.45}), {1, 2, 3}, 25);
   const FieldSource source(cube, {.box = bounds, .voxelSize = 1.0 / 16});
-  EXPECT_LT(vertexRms(contour(source, {.sigmaNormal = kFromData, .placement = Placement::kFree}), *cube),
-            1.1 * vertexRms(contour(source, {.placement = Placement::kFree}), *cube));
+  EXPECT_LT(
+      vertexRms(contour(source, {.placement = Placement::kFree}), *cube),
+      1.1 * vertexRms(contour(source, {.sigmaNormal = kPapersSigmaNormal, .placement = Placement::kFree}), *cube));
 }
 
 TEST(SigmaFromData, ThreadsDoNotMatter) {
   const FieldSource source(test::drilledBox(), {.box = test::kDrilledBoxBounds, .voxelSize = 0.05});
-  const Mesh one = contour(source, {.sigmaNormal = kFromData, .threads = 1}),
-             three = contour(source, {.sigmaNormal = kFromData, .threads = 3});
+  const Mesh one = contour(source, {.threads = 1}), three = contour(source, {.threads = 3});
   EXPECT_EQ(one.positions, three.positions);
   EXPECT_EQ(one.quads, three.quads);
   EXPECT_EQ(one.triangles, three.triangles);

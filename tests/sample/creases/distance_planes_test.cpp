@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "sample/cell_edges.h"
 #include "sample/creases/crease_sheets.h"
 #include "sample/creases/gradient_jumps.h"
 #include "sample/creases/voxel_planes.h"
-#include "sample/cell_edges.h"
 
 namespace pdc::detail {
 namespace {
@@ -195,7 +195,8 @@ TEST(VoxelPlanes, DoNotDependOnTheProcessor) {
 
 TEST(CreaseSheets, AnEdgeHasTwoThatMeetOnIt) {
   SurfaceSamples samples = samplesAbout(stencil(wedge), {4, 4, 4}), again = samples;
-  const CreaseSheets sheets = findSheets(samples, 0);
+  SheetWeights weights;
+  const CreaseSheets sheets = findSheets(samples, 0, weights);
   ASSERT_GE(sheets.count, 2);
   EXPECT_LT(std::min(degrees(vecCast<float>(sheets.sheet[0].normal), kLeft),
                      degrees(vecCast<float>(sheets.sheet[0].normal), kRight)),
@@ -204,7 +205,7 @@ TEST(CreaseSheets, AnEdgeHasTwoThatMeetOnIt) {
               along = unit(cross(kLeft, kRight));
   EXPECT_LT(length(meeting - along * dot(meeting, along)), 0.01);
 
-  const CreaseSheets baseline = findSheets(again, 0, SimdLevel::kBaseline);
+  const CreaseSheets baseline = findSheets(again, 0, weights, SimdLevel::kBaseline);
   ASSERT_EQ(sheets.count, baseline.count);
   for (int i = 0; i < sheets.count; ++i) {
     EXPECT_EQ(sheets.sheet[i].center, baseline.sheet[i].center);

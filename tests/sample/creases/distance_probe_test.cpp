@@ -56,7 +56,8 @@ TEST_F(DistanceProbeTest, NoiseIsMeasured) {
 /// A level set of a mesh whose facets are as large as a voxel, as scanned meshes give: its small kinks are not noise,
 /// and nothing to look for creases in.
 TEST_F(DistanceProbeTest, RoughSurfacesAreTextureNotNoise) {
-  const Mesh rough = contour(GridSource(sphere(0.05), {.hermite = HermiteMode::kGradient}));
+  const Mesh rough =
+      contour(GridSource(sphere(0.05), {.hermite = HermiteMode::kGradient}), {.sigmaNormal = kPapersSigmaNormal});
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   for (const Vec3f& p : rough.positions) points.emplace_back(p.x, p.y, p.z);

@@ -42,12 +42,12 @@ struct Paraboloid {
 CreaseSheet tilted(const Paraboloid& p, double slope) {
   Vec3d normal = p.n + p.e1 * slope;
   normal *= 1 / length(normal);
-  return {{0.1, 0.05, -0.1}, normal, {}, 0, 80};
+  return {.center = {0.1, 0.05, -0.1}, .normal = normal, .bend = {}, .offset = 0, .support = 80, .moments = {}};
 }
 
 TEST(NoisySheet, FindsAPlaneFromATiltedStart) {
   const Paraboloid p(0, 0, 1);
-  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.01);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.01).sheet;
   EXPECT_GT(dot(sheet.normal, p.n), 1 - 1e-8);
   EXPECT_NEAR(sheet.value({}), 0, 1e-5);
 }
@@ -61,7 +61,7 @@ TEST(NoisySheet, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
     for (int i = 0; i < p.samples.count; ++i) normal += vecCast<double>(p.samples.normal(i));
     normal *= 1 / length(normal);
     const CreaseSheet start{{}, normal, {}, 0, 80};
-    const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), start, kNormalNoise * kNoise);
+    const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), start, kNormalNoise * kNoise).sheet;
     fitted += length(sheet.normal - p.n);
     mean += length(normal - p.n);
   }
@@ -70,7 +70,7 @@ TEST(NoisySheet, LeansFarBetterThanTheMeanNormalOfNoisySamples) {
 
 TEST(NoisySheet, KeepsABendThatManySamplesShow) {
   const Paraboloid p(0.05, 0.001, 3);
-  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0), kNormalNoise * 0.001);
+  const CreaseSheet sheet = fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0), kNormalNoise * 0.001).sheet;
   EXPECT_NEAR(dot(p.e1, sheet.bend * p.e1), -0.05, 0.01);
   EXPECT_NEAR(dot(p.e2, sheet.bend * p.e2), -0.05, 0.01);
   EXPECT_NEAR(dot(sheet.normal, sheet.bend * sheet.normal), 0, 1e-4);
@@ -79,7 +79,7 @@ TEST(NoisySheet, KeepsABendThatManySamplesShow) {
 TEST(NoisySheet, SimdLevelsAgree) {
   const Paraboloid p(0.02, 0.02, 5);
   const auto fit = [&](SimdLevel level) {
-    return fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.08, level);
+    return fitNoisySheet(p.samples, p.fitWeight.data(), tilted(p, 0.02), 0.08, level).sheet;
   };
   if (test::wideSimdLevels().empty()) GTEST_SKIP() << "this processor has one level only";
   const CreaseSheet base = fit(SimdLevel::kBaseline);
