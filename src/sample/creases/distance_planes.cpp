@@ -52,15 +52,16 @@ constexpr double kFaceSag = 1.0 / 12;
 double mostSheetError(double noise) { return 0.03 + 2 * noise; }
 
 /// How far crossings may be from the nearest of several sheets: linear ones miss creases by more the more these turn.
-/// On fillets of one voxel or two, which look like creases from farther away, they are off by more.
-/// \param cosine of the normals that differ most.
-double mostCreaseError(double noise, double cosine) { return 0.12 + 0.125 * (1 - cosine) + 1.5 * noise; }
-
-double leastCosine(const CreaseSheets& sheets) {
-  double least = 1;
+/// On convex fillets of one voxel or two, which look like creases from farther away, they are off by more.
+double mostCreaseError(double noise, const CreaseSheets& sheets) {
+  constexpr double kConcave = 1.6;  // Beside concave creases rasterised distances are off by more.
+  double cosine = 1, factor = 1;
   for (const CreaseSheet& a : sheets.all())
-    for (const CreaseSheet& b : sheets.all()) least = std::min(least, dot(a.normal, b.normal));
-  return least;
+    for (const CreaseSheet& b : sheets.all()) {
+      cosine = std::min(cosine, dot(a.normal, b.normal));
+      if (a.value(b.center) + b.value(a.center) > 0) factor = kConcave;
+    }
+  return factor * (0.12 + 0.125 * (1 - cosine)) + 1.5 * noise;
 }
 
 /// The standard deviation that is expected of each component of a sample's normal.
@@ -161,7 +162,7 @@ class PlaneFinder {
     const Vec3d y = mSelection.select(crossings, met);
     const double error = mSelection.crossingError(crossings, sheets.all());
     if (met.count > 1) {
-      if (error <= mostCreaseError(noise, leastCosine(met))) write(met, y);
+      if (error <= mostCreaseError(noise, met)) write(met, y);
       return;
     }
     const int best = mSelection.nearest(crossings, sheets.all());
