@@ -29,7 +29,7 @@ struct Request {
 struct Outcome {
   SurfaceFigures figures;
   double milliseconds = 0, outOfCell = 0;
-  double noise = 0, normalNoise = 0, trueNormalNoise = 0;  ///< Of values in voxels, and of normals.
+  double noise = 0, normalNoise = 0, trueNormalNoise = 0;  ///< In values, in voxels, and in normals.
 };
 
 Outcome run(const PosedKind& posed, const GridInput& input, const std::string& method) {

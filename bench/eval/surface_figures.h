@@ -13,8 +13,9 @@ namespace pdc::eval {
 struct SurfaceFigures {
   double vertexRms = 0;   ///< Distance of the vertices from the surface.
   double surfaceRms = 0;  ///< Distances of points of the faces from the surface and of its points from them, by area.
-  double normalRms = 0, normalP99 = 0, normalMax = 0;  ///< Of the faces, by area, farther than kAway from creases.
-  double edgeRms = 0, cornerMax = 0;                   ///< As in Figures.
+  double normalRms = 0, normalP99 = 0,
+         normalMax = 0;               ///< Errors of the faces, by area, farther than kAway from creases.
+  double edgeRms = 0, cornerMax = 0;  ///< As in Figures.
   std::size_t triangles = 0;
   std::size_t turned = 0;  ///< Triangles more than kTurned from the true normal, farther than kAway from creases.
   static constexpr double kAway = 1, kTurned = 60;

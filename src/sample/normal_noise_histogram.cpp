@@ -39,7 +39,7 @@ void NormalNoiseHistogram::add(const HermiteBlock& hermite, const EdgeIndex& edg
         const Vec3f chord = M * Vec3f{dx + isX * along, dy + isY * along, dz + isZ * along};
         const Vec3f a{nx[i], ny[i], nz[i]}, b{nx[i + 1], ny[i + 1], nz[i + 1]};
         const float across = dot(a + b, chord), squared = across * across / dot(chord, chord);
-        // Of two sides of something thin the crossings may be neighbours too.
+        // Crossings on the two sides of something thin may be neighbours too.
         const bool pair = (steps < 1.5F) & (dot(a, b) > 0) & (i < left);
         const std::int32_t place = RootHistogram::bin(squared);
         bin[i] = pair ? place : kNoPair;

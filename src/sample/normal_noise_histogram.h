@@ -30,7 +30,7 @@ class NormalNoiseHistogram {
   [[nodiscard]] double sigma(std::uint64_t certain = 0) const;
 
  private:
-  RootHistogram mSizes;  ///< Of s.
+  RootHistogram mSizes;  ///< The sizes of s.
 };
 
 }  // namespace pdc::detail

@@ -16,8 +16,8 @@ struct VertexCounts {
   std::size_t crossings = 0, withoutNormal = 0, outOfCell = 0, moved = 0;
   std::size_t creases = 0;  ///< Patches with several planes from distances.
   // Where σn comes from the data:
-  NormalNoiseHistogram agreement{};  ///< Of the normals.
-  RootHistogram sigmas{};            ///< Of the patches' σn.
+  NormalNoiseHistogram agreement{};  ///< How well normals agree with chords.
+  RootHistogram sigmas{};            ///< The σn of all patches.
 
   VertexCounts& operator+=(const VertexCounts& c) {
     crossings += c.crossings;

@@ -50,7 +50,7 @@ class SigmaNormal {
                             b0.x * b0.x + b1.y * b1.y + b2.z * b2.z + 2 * (b0.y * b1.x + b0.z * b2.x + b1.z * b2.y),
                             weight);
   }
-  /// The same where H = I.
+  /// As above, where H = I.
   template <typename T>
   [[nodiscard]] PatchSpread<T> spread(const SymMat3<T>& A, T weight) const {
     return spreadFromTraces(
@@ -62,7 +62,7 @@ class SigmaNormal {
     const auto c = [](double v) { return static_cast<T>(v); };
     const T beyond = residual - c(kResidualOfNoise) * spread.noise, disagreement = beyond > 0 ? beyond : T(0),
             ratio = disagreement / (spread.excess + c(kTiny));
-    // Of normals that cannot come from a crease.
+    // The share of normals that cannot come from a crease.
     const T wrong = mAllCreases ? T(1) : clamped((ratio - c(mMostOfCrease)) / c(1 - kMostOfCrease));
     const T noise = spread.noise + wrong * disagreement / c(kResidualOfNoise);
     const T ofNoise = c(kSpreadOfNoise) * noise, share = ofNoise / (ofNoise + spread.excess + c(kTiny));

@@ -33,7 +33,7 @@ struct CreaseSheet {
   double support;  ///< The sum of that of its samples.
   SheetMoments moments{};
   double heightError = 0;  ///< See NoisyFit; only where samples are noisy.
-  int number = 0;          ///< Of its weights: see SheetWeights.
+  int number = 0;          ///< Its place in SheetWeights.
 
   /// The mean curvature, twice: positive where the surface is convex.
   [[nodiscard]] double traceOfBend() const { return bend.row[0].x + bend.row[1].y + bend.row[2].z; }

@@ -165,7 +165,7 @@ TEST(SigmaNormal, TangentialNoiseIsIsotropicNoiseOfAnotherSize) {
   EXPECT_LT(length(*solveLdlt(a.A, a.b) - *solveLdlt(b.A, b.b)), 1e-12);
 }
 
-/// Of some points, from a surface.
+/// Root mean square of the distances of points from a surface.
 double rms(const std::vector<Vec3d>& points, const Field& field) {
   double sum = 0;
   for (const Vec3d& p : points) {
