@@ -1,7 +1,5 @@
 #include "commands/info_facts.h"
 
-#include <cmath>
-
 #include "commands/json_report.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/open_input.h"

@@ -60,17 +60,8 @@ GridInput makeGrid(const std::string& input, const Shape& shape, const Pose& pos
   const double iso = input == "iso" ? 1 : 0;
   const auto distance = [&](const Vec3d& p) { return shape.distance(pose.toShape(p)) * pose.size + iso; };
   // All solids lie within twice their half size.
-  GridInput out{input == "mesh" ? rasterise(shape, pose) : sampleDistance(distance, 2 * pose.size), iso};
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0, noise);
-  for (auto leaf = out.grid->tree().beginLeaf(); leaf; ++leaf)
-    for (auto it = leaf->beginValueOn(); it; ++it) {
-      auto v = *it;
-      if (noise > 0) v += static_cast<float>(normal(random));
-      if (input == "half") v = static_cast<float>(openvdb::math::half(v));
-      it.setValue(v);
-    }
-  return out;
+  const GridInput clean{input == "mesh" ? rasterise(shape, pose) : sampleDistance(distance, 2 * pose.size), iso};
+  return withNoise(clean, noise, input == "half", seed);
 }
 
 GridInput makeClean(const std::string& input, const std::function<double(const Vec3d&)>& distance, double reach) {

@@ -17,19 +17,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Shape smooth(std::string name, bool heldOut, std::function<double(const Vec3d&)> distance) {
-  return {.name = std::move(name),
-          .heldOut = heldOut,
-          .distance = std::move(distance),
-          .edges = {},
-          .creases = {},
-          .corners = {},
-          .mesh = {}};
-}
-
 Kind sphere(double radius, bool heldOut) {
-  return {.shape = smooth(fmt::format("sphere_{}", radius), heldOut,
-                          [radius](const Vec3d& p) { return length(p) - radius; }),
+  return {.shape = smoothShape(fmt::format("sphere_{}", radius), heldOut,
+                               [radius](const Vec3d& p) { return length(p) - radius; }),
           .reach = radius,
           .poses = radius < 4 ? 12U : 4U};
 }
@@ -84,12 +74,13 @@ Kind sphereUnion(std::string name, bool heldOut, const Scatter& s) {
     const Vec3d center{place(random), place(random), place(random)};
     balls->push_back({center, size(random)});
   }
-  Kind kind{.shape = smooth(std::move(name), heldOut,
-                            [balls](const Vec3d& p) {
-                              double nearest = std::numeric_limits<double>::infinity();
-                              for (const Ball& b : *balls) nearest = std::min(nearest, length(p - b.center) - b.radius);
-                              return nearest;
-                            }),
+  Kind kind{.shape = smoothShape(std::move(name), heldOut,
+                                 [balls](const Vec3d& p) {
+                                   double nearest = std::numeric_limits<double>::infinity();
+                                   for (const Ball& b : *balls)
+                                     nearest = std::min(nearest, length(p - b.center) - b.radius);
+                                   return nearest;
+                                 }),
             .reach = std::sqrt(3.0) * (s.half + s.most)};
   kind.shape.creases = kind.shape.edges = meetings(*balls);
   return kind;
@@ -110,35 +101,35 @@ Kind strands(double radius, bool heldOut) {
     };
     if (std::all_of(all->begin(), all->end(), clear)) all->push_back({a, b});
   }
-  return {.shape = smooth(fmt::format("strands_{}", radius), heldOut,
-                          [all, radius](const Vec3d& p) {
-                            double nearest = std::numeric_limits<double>::infinity();
-                            for (const auto& [a, b] : *all) {
-                              const Vec3d e = b - a;
-                              const double t = std::clamp(dot(p - a, e) / dot(e, e), 0.0, 1.0);
-                              nearest = std::min(nearest, length(p - a - e * t) - radius);
-                            }
-                            return nearest;
-                          }),
+  return {.shape = smoothShape(fmt::format("strands_{}", radius), heldOut,
+                               [all, radius](const Vec3d& p) {
+                                 double nearest = std::numeric_limits<double>::infinity();
+                                 for (const auto& [a, b] : *all) {
+                                   const Vec3d e = b - a;
+                                   const double t = std::clamp(dot(p - a, e) / dot(e, e), 0.0, 1.0);
+                                   nearest = std::min(nearest, length(p - a - e * t) - radius);
+                                 }
+                                 return nearest;
+                               }),
           .reach = 30,
           .poses = 3};
 }
 
 /// A hollow sphere with a wall of a few voxels.
 Kind film(double thickness, bool heldOut) {
-  return {.shape = smooth(fmt::format("film_{}", thickness), heldOut,
-                          [thickness](const Vec3d& p) { return std::abs(length(p) - 14) - thickness / 2; }),
+  return {.shape = smoothShape(fmt::format("film_{}", thickness), heldOut,
+                               [thickness](const Vec3d& p) { return std::abs(length(p) - 14) - thickness / 2; }),
           .reach = 16};
 }
 
 Kind torus(double tube, double ring, bool heldOut) {
-  return {.shape = smooth(fmt::format("torus_{}", tube), heldOut,
-                          [=](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - ring, p.z) - tube; }),
+  return {.shape = smoothShape(fmt::format("torus_{}", tube), heldOut,
+                               [=](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - ring, p.z) - tube; }),
           .reach = ring + tube};
 }
 
 Kind filletedBox(double radius, bool heldOut) {
-  return {.shape = smooth(
+  return {.shape = smoothShape(
               fmt::format("fillet_{}", radius), heldOut,
               [radius](const Vec3d& p) {
                 const Vec3d q{std::abs(p.x) - 16 + radius, std::abs(p.y) - 12 + radius, std::abs(p.z) - 9 + radius};
@@ -176,7 +167,7 @@ struct Implicit {
 };
 
 Kind implicitKind(std::string name, bool heldOut, const Implicit& f, double reach) {
-  return {.shape = smooth(std::move(name), heldOut, [f](const Vec3d& p) { return f.distance(p); }),
+  return {.shape = smoothShape(std::move(name), heldOut, [f](const Vec3d& p) { return f.distance(p); }),
           .reach = reach,
           .poses = 1,
           .gradient = f.gradient};

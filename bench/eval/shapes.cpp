@@ -37,18 +37,8 @@ Shape wedge(int degrees, bool heldOut) {
   return shape;
 }
 
-Shape smooth(std::string name, bool heldOut, std::function<double(const Vec3d&)> distance) {
-  return {.name = std::move(name),
-          .heldOut = heldOut,
-          .distance = std::move(distance),
-          .edges = {},
-          .creases = {},
-          .corners = {},
-          .mesh = {}};
-}
-
 Shape sphere() {
-  Shape shape = smooth("sphere", false, [](const Vec3d& p) { return length(p) - 0.9; });
+  Shape shape = smoothShape("sphere", false, [](const Vec3d& p) { return length(p) - 0.9; });
   constexpr int kRings = 256, kAround = 512;
   const auto at = [](int i, int k) {
     const double a = kPi * i / kRings, b = 2 * kPi * k / kAround;
@@ -75,7 +65,7 @@ Shape sphere() {
 
 Shape torus() {
   Shape shape =
-      smooth("torus", false, [](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - 0.65, p.z) - 0.3; });
+      smoothShape("torus", false, [](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - 0.65, p.z) - 0.3; });
   constexpr int kAround = 512, kTube = 256;
   for (int i = 0; i < kAround; ++i)
     for (int k = 0; k < kTube; ++k) {
@@ -89,6 +79,16 @@ Shape torus() {
 }
 
 }  // namespace
+
+Shape smoothShape(std::string name, bool heldOut, std::function<double(const Vec3d&)> distance) {
+  return {.name = std::move(name),
+          .heldOut = heldOut,
+          .distance = std::move(distance),
+          .edges = {},
+          .creases = {},
+          .corners = {},
+          .mesh = {}};
+}
 
 std::vector<Shape> makeShapes(double voxels) {
   std::vector<Shape> all;

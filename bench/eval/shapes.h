@@ -30,6 +30,9 @@ struct Shape {
   ShapeMesh mesh;
 };
 
+/// A shape without creases, and without a mesh.
+[[nodiscard]] Shape smoothShape(std::string name, bool heldOut, std::function<double(const Vec3d&)> distance);
+
 /// All shapes for solids whose half size is `voxels` voxels, which is what the thickness of the thin plate, 1.5 voxels,
 /// depends on.
 [[nodiscard]] std::vector<Shape> makeShapes(double voxels);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "parallel/isolated.h"
+#include "sample/block_origin.h"
 #include "sample/normal_noise_histogram.h"
 
 namespace pdc {
@@ -23,9 +24,8 @@ double normalNoise(const HermiteSource& source, const Monitor& monitor) {
       HermiteBlock& hermite = *scratch.local();
       const EdgeIndex edges(blocks.signs[i]);
       source.fillHermite({blocks.coords[i], blocks.signs[i], edges}, hermite);
-      const Coord& b = blocks.coords[i];
-      const Vec3d origin{double(kBlockSize) * b[0], double(kBlockSize) * b[1], double(kBlockSize) * b[2]};
-      parts.local().add(hermite, edges, matCast<float>(map.jacobian(origin)));
+      const Mat3d linear = map.jacobian(detail::blockOrigin(blocks.coords[i]));
+      parts.local().add(hermite, edges, matCast<float>(linear));
     });
   });
   detail::NormalNoiseHistogram all;

@@ -22,8 +22,10 @@ class BlockSampler {
   /// Replaces what the block before has left.
   void run(const SurfaceBlock& block, const BlockTopology& topology, const CellMetric& metric) {
     mSource.fillHermite(block, mHermite);
-    mAgreement = {};
-    if (mEstimateNoise) mAgreement.add(mHermite, block.edges, matCast<float>(metric.M));
+    if (mEstimateNoise) {
+      mAgreement = {};
+      mAgreement.add(mHermite, block.edges, matCast<float>(metric.M));
+    }
     if (mNoise != nullptr) mSource.fillNoise(block, mHermite, *mNoise);
     mPatches.fill(topology, block.signs);
     mFeatures.clear();

@@ -56,11 +56,13 @@ struct BlockVertexSolver::Scratch {
   void sample(const SurfaceBlock& block, const BlockTopology& topology, const CellMetric& metric, const Vec3d& origin,
               VertexCounts& counts) {
     sampler.run(block, topology, metric);
-    counts.agreement += sampler.agreement();
     counts.creases += static_cast<std::size_t>(
         std::ranges::count_if(sampler.features().patches, [](const FeaturePlanes::Patch& p) { return p.count > 1; }));
-    solver.setNoise(sampler.normalNoise());
     const SigmaNormal& sigma = solver.sigma();
+    if (sigma.needsNoise()) {
+      counts.agreement += sampler.agreement();
+      solver.setNoise(sampler.normalNoise());
+    }
     counts.crossings += topology.quadCount;
     counts.withoutNormal += crossings.fill(sampler.hermite(), block.edges, metric, map, origin, level);
     Sigma_n = matrixCast(sigma.ofPatches() ? metric.G : metric.G * sigma.variance());

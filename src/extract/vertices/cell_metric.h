@@ -4,6 +4,7 @@
 #include "pdc/math/sym_mat3.h"
 #include "pdc/sample/hermite_block.h"
 #include "pdc/sample/lattice_map.h"
+#include "sample/block_origin.h"
 
 namespace pdc::detail {
 
@@ -22,11 +23,6 @@ struct CellMetric {
 /// The metric of a block whose lowest point is `origin`. Only a map that is not affine has a metric that changes from
 /// block to block; within one it is taken as constant.
 [[nodiscard]] CellMetric blockMetric(const LatticeMap& map, const Vec3d& origin);
-
-/// The lowest point of a block.
-[[nodiscard]] inline Vec3d blockOrigin(const Coord& block) {
-  return {double(kBlockSize) * block[0], double(kBlockSize) * block[1], double(kBlockSize) * block[2]};
-}
 
 /// The centre of a cell, from its block's lowest point.
 [[nodiscard]] inline Vec3d cellCenter(BlockCell cell) { return {cell.x() + 0.5, cell.y() + 0.5, cell.z() + 0.5}; }

@@ -35,8 +35,6 @@ class SigmaNormal {
   /// Whether it has to be told the noise.
   [[nodiscard]] bool needsNoise() const { return mNeedsNoise; }
   [[nodiscard]] bool ofPatches() const { return mOfPatches; }
-  /// Estimated standard deviation of normals; 0 unless it was.
-  [[nodiscard]] double noise() const { return mNoise; }
   /// σn² of all patches, or of creases.
   [[nodiscard]] double variance() const { return mVariance; }
   /// How much the normals of a patch differ beyond their noise: the mean of the squared sine of the angle between two
