@@ -4,29 +4,14 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <limits>
 #include <thread>
 
 #include "io/file/atomic_file.h"
+#include "parallel/machine_memory.h"
 
 namespace pdc {
-namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The most memory this program has had in use; 0 if the system does not say. getrusage is of no use here: its figure
-/// starts at that of the program that started this one.
-std::size_t peakMemoryBytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string key; status >> key; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
-    std::size_t kibibytes = 0;
-    if (key == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
-  }
-  return 0;
-}
-
-}  // namespace
 
 Json sigmaNormalJson(const std::optional<double>& sigma) {
   if (!sigma) return "auto";
@@ -65,7 +50,7 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"value_noise_voxels", run.valueNoise},
           {"threads", threads},
           {"bytes_written", run.bytesWritten},
-          {"peak_memory_bytes", peakMemoryBytes()},
+          {"peak_memory_bytes", detail::peakMemory()},
           {"warnings", run.warnings},
           {"seconds",
            {{"read", run.secondsRead},

@@ -8,7 +8,10 @@
 #include <limits>
 
 #include "commands/json_report.h"
+#include "extract/contour_memory.h"
+#include "io/file/suffix.h"
 #include "parallel/stopwatch.h"
+#include "pdc/extract/contour_forecast.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
@@ -31,17 +34,37 @@ void checkSurface(const MeshRequest& request, const Input& input, const Mesh& me
 
 /// Far from the origin the output's single precision is coarser than the vertices were placed.
 void checkPrecision(const Input& input, const Mesh& mesh, MeshRun& run) {
-  constexpr double kTolerated = 1e-3;  // voxels
   float farthest = 0;
   for (const Vec3f& p : mesh.positions) {
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   const double spacing = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
   const double inVoxels = spacing / input.source->map().voxelSize();
-  if (inVoxels > kTolerated) {
-    warn(run, fmt::format("far from the origin: at coordinate {:.6g} single precision has steps of {:.2g} voxels",
+  if (inVoxels > kMostRounding) {
+    warn(run, fmt::format("far from the origin: at coordinate {:.6g} single precision has steps of {:.2g} voxels; "
+                          "--origin auto or --double keeps what is lost",
                           farthest, inVoxels));
   }
+}
+
+/// Bytes of a mesh's file, roughly.
+double fileSize(const MeshRequest& request, const ContourForecast& forecast) {
+  const bool text = request.ascii || detail::suffixOf(request.output) == ".obj";
+  constexpr double kBinary = 29, kText = 60;  // for a vertex and a quad, as closed meshes have
+  return (text ? kText : kBinary) * forecast.vertices;
+}
+
+/// Refuses what will not fit into memory before the work begins, and tells of what takes long.
+void checkForecast(const MeshRequest& request, const Input& input, const MeshRun& run) {
+  const auto forecast = forecastContour(*input.source, run.options, {.stop = &interruptFlag()});
+  if (!forecast) return;
+  detail::checkMemory(forecast->memory, forecast->vertices, run.options);
+  constexpr double kMuch = 1e9, kGiga = 1e9, kMega = 1e6;
+  if (forecast->memory < kMuch || request.quiet) return;
+  std::fputs(fmt::format("pdc: about {:.2g} million vertices, {:.1f} GB of memory, a file of {:.1f} GB\n",
+                         forecast->vertices / kMega, forecast->memory / kGiga, fileSize(request, *forecast) / kGiga)
+                 .c_str(),
+             stderr);
 }
 
 Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
@@ -60,6 +83,7 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   run.valueNoise = input.valueNoise;
   run.options = request.contourOptions(input.sigmaNormal);
 
+  checkForecast(request, input, run);
   Mesh mesh;
   {
     ProgressBar bar(!request.quiet);

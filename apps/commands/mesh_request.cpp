@@ -51,6 +51,29 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
 
+/// Declares --origin and --double.
+void addPlaceOptions(CLI::App& command, MeshRequest& request, const std::string& group) {
+  const auto origin = [&request](const std::string& text) {
+    const std::vector<double> xyz = parseReals(text, ',');
+    const bool point =
+        xyz.size() == 3 && std::all_of(xyz.begin(), xyz.end(), [](double v) { return std::isfinite(v); });
+    if (text != "auto" && !point)
+      throw CLI::ValidationError("--origin", fmt::format("'{}' is not X,Y,Z, three finite numbers, or auto", text));
+    request.originFromData = !point;
+    request.origin = point ? std::optional(Vec3d{xyz[0], xyz[1], xyz[2]}) : std::nullopt;
+  };
+  command
+      .add_option_function<std::string>("--origin", origin,
+                                        "Subtracted from the coordinates, and named in the file (0,0,0);\n"
+                                        "auto: near the surface if that is too far out for single precision")
+      ->type_name("X,Y,Z|auto")
+      ->group(group);
+  command
+      .add_flag("--double", request.doublePrecision,
+                "Coordinates in double precision, in a .ply or .obj: keeps\nwhat lies far from the origin")
+      ->group(group);
+}
+
 void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto grids = "For .vdb inputs";
@@ -106,13 +129,17 @@ InputOptions MeshRequest::inputOptions() const {
 }
 
 ContourOptions MeshRequest::contourOptions(std::optional<double> otherSigma) const {
-  return {.sigmaNormal = sigmaFromData ? std::nullopt : (sigmaNormal ? sigmaNormal : otherSigma),
-          .placement = placement,
-          .triangles = triangles,
-          .normals = normals,
-          .confidence = confidence,
-          .ranks = rank,
-          .threads = threads.value_or(0)};
+  return {
+      .sigmaNormal = sigmaFromData ? std::nullopt : (sigmaNormal ? sigmaNormal : otherSigma),
+      .placement = placement,
+      .triangles = triangles,
+      .normals = normals,
+      .confidence = confidence,
+      .ranks = rank,
+      .origin = originFromData || (doublePrecision && !origin) ? std::nullopt : std::optional(origin.value_or(Vec3d{})),
+      .exactSums = doublePrecision,
+      .maxMemory = maxMemory,
+      .threads = threads.value_or(0)};
 }
 
 std::string placementName(Placement placement) {
@@ -142,8 +169,13 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
   addInputOptions(command, request);
   const auto group = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
+  addPlaceOptions(command, request, group);
   command.add_option("--json", request.json, "Report for programs; - is standard output")
       ->type_name("FILE")
+      ->group(group);
+  command.add_option("--max-memory", request.maxMemory, "Most memory to use, as 8GB or 500MB (what the machine has)")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(true))
       ->group(group);
   command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
   addThreads(command, request.threads)->group(group);
@@ -171,6 +203,9 @@ void checkMeshRequest(const MeshRequest& request) {
   const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
   refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");
   refuseOther(request.rank && otherThanPly(), "--rank", ".ply outputs");
+  refuseOther(
+      request.doublePrecision && otherThanPly() && detail::meshFormat(request.output) != detail::MeshFormat::kObj,
+      "--double", ".ply and .obj outputs");
   if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
   if (request.json.empty()) return;
   if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");

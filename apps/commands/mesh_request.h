@@ -20,7 +20,11 @@ struct MeshRequest {
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
   bool triangles = false, open = false, normals = false, ascii = false;
-  bool sigmaFromData = false;  ///< True for --sigma-n auto.
+  bool sigmaFromData = false;   ///< True for --sigma-n auto.
+  std::optional<Vec3d> origin;  ///< --origin X,Y,Z.
+  bool originFromData = false;  ///< True for --origin auto.
+  bool doublePrecision = false;
+  std::size_t maxMemory = 0;  ///< Bytes; 0: what the machine has.
   bool confidence = false, rank = false, requireSurface = false, quiet = false;
 
   /// How to read the input.

@@ -4,15 +4,19 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "extract/certify/certify.h"
+#include "extract/contour_memory.h"
 #include "extract/faces/fill_mesh.h"
+#include "extract/mesh_origin.h"
 #include "extract/topology/continuation.h"
 #include "extract/topology/surface.h"
 #include "extract/vertex_confidence.h"
 #include "extract/vertex_quadrics.h"
 #include "parallel/with_threads.h"
+#include "sample/relocated_source.h"
 
 namespace pdc {
 namespace {
@@ -22,6 +26,8 @@ void checkOptions(const ContourOptions& options, const ContourReport* report) {
     throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", *options.sigmaNormal));
   if (options.quadrics && report == nullptr)
     throw std::invalid_argument("contour: quadrics are asked for without a report to put them into");
+  if (const auto& o = options.origin; o && !(std::isfinite(o->x) && std::isfinite(o->y) && std::isfinite(o->z)))
+    throw std::invalid_argument(fmt::format("contour: the origin is ({}, {}, {}), must be finite", o->x, o->y, o->z));
   if (options.threads < 0)
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
 }
@@ -40,15 +46,22 @@ void splitQuads(Mesh& mesh) {
   Buffer<Quad>().swap(mesh.quads);
 }
 
-Mesh run(const HermiteSource& source, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
-  const SurfaceBlocks blocks = source.surfaceBlocks(monitor);
+Mesh run(const HermiteSource& world, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
+  const SurfaceBlocks blocks = world.surfaceBlocks(monitor);
   if (!std::is_sorted(blocks.coords.begin(), blocks.coords.end()))
     throw std::invalid_argument("contour: the source's blocks are not sorted");
   const detail::Topology topology = detail::buildTopology(blocks, monitor);
   detail::checkContinuation(blocks, topology);
   detail::checkVertexCount(topology.vertexCount);
+  const auto vertices = static_cast<double>(topology.vertexCount);
+  detail::checkMemory(detail::contourMemory(vertices, options), vertices, options);
+  const detail::MeshOrigin place = detail::meshOrigin(world.map(), blocks, options.origin, options.exactSums);
+  const detail::RelocatedSource relocated(world, world.map().relativeTo(place.origin, place.step));
+  const bool moves = place.origin != Vec3d{};
+  const HermiteSource& source = moves ? relocated : world;
   const detail::Surface surface{source, blocks, topology};
   Mesh mesh;
+  mesh.origin = place.origin;
   const bool promised = options.placement != Placement::kFree;
   detail::Suspects suspects;
   const detail::SigmaNormal sigma =

@@ -56,4 +56,17 @@ LatticeMap::LatticeMap(PositionFunction position, JacobianFunction jacobian, con
   mVoxelSize = shape.size;
 }
 
+LatticeMap LatticeMap::relativeTo(const Vec3d& origin, double step) const {
+  LatticeMap moved = *this;
+  moved.mStep = step;
+  moved.mTranslation = mTranslation - origin;
+  if (!affine()) moved.mPosition = [position = mPosition, origin](const Vec3d& x) { return position(x) - origin; };
+  return moved;
+}
+
+Vec3d LatticeMap::onStep(const Vec3d& p) const {
+  return {std::nearbyint(p.x / mStep) * mStep, std::nearbyint(p.y / mStep) * mStep,
+          std::nearbyint(p.z / mStep) * mStep};
+}
+
 }  // namespace pdc

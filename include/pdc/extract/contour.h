@@ -45,11 +45,23 @@ struct ContourOptions {
   bool ranks = false;
   /// Also ContourReport::quadrics. Costs about as much again as contouring, and 40 bytes per vertex.
   bool quadrics = false;
+  /// Mesh::origin, in world units, finite. Empty: zero as long as single precision resolves kMostRounding voxels at the
+  /// farthest vertex, else near the middle of the surface. Everything that is promised of coordinates holds for those
+  /// relative to it.
+  std::optional<Vec3d> origin = Vec3d{};
+  /// The sums of origin and positions are exact in double precision, so that they can be written instead and keep what
+  /// is promised: positions are multiples of a power of two, to which a given origin is rounded too.
+  bool exactSums = false;
+  /// Bytes that the program may have in use, the mesh and the input included. 0: what the machine has.
+  std::size_t maxMemory = 0;
   int threads = 0;  ///< 0: all. The result does not depend on it, byte for byte.
 };
 
 /// The standard deviation, in voxels, of a vertex whose confidence is one half.
 inline constexpr double kHalfConfidence = 0.1;
+
+/// How far apart neighbouring numbers of single precision may be, in voxels, before they are too coarse for a mesh.
+inline constexpr double kMostRounding = 1e-3;
 
 /// What one contour() call counted, no verdicts, and what it was asked to hand out.
 struct ContourReport {
@@ -90,12 +102,13 @@ struct ContourReport {
 /// crease, within 60° of one of the planes that meet there. In the rare places where four vertices allow no such quad,
 /// triangles about an additional vertex on the lattice edge take its place. `uncertified` is 0 then. Not guaranteed for
 /// kFree, for maps that are not affine, where an open source's surface ends within a cell in several pieces, and beyond
-/// about 2^20 voxels from the origin, where single precision cannot tell a cell's walls apart; there `uncertified`
-/// counts what is left.
+/// about 2^20 voxels from the mesh's origin, where single precision cannot tell a cell's walls apart; there
+/// `uncertified` counts what is left.
 ///
-/// \throws std::invalid_argument for a negative or NaN sigmaNormal or negative threads, for quadrics without a report
-/// to put them into, and for a source whose blocks are not sorted or not closed under continuation; Error if the mesh
-/// would have more than 2^32 vertices, before any is made; Cancelled; whatever the source throws.
+/// \throws std::invalid_argument for a negative or NaN sigmaNormal, an origin that is not finite or negative threads,
+/// for quadrics without a report to put them into, and for a source whose blocks are not sorted or not closed under
+/// continuation; Error if the mesh would have more than 2^32 vertices, or is not expected to fit into maxMemory, before
+/// any is made (forecastContour() tells even before that); Cancelled; whatever the source throws.
 [[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {},
                            ContourReport* report = nullptr, const Monitor& monitor = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "pdc/sample/hermite_block.h"
 #include "pdc/sample/lattice_map.h"
 #include "pdc/sample/plane_noise.h"
+#include "pdc/sample/surface_forecast.h"
 
 namespace pdc {
 
@@ -54,6 +56,10 @@ class HermiteSource {
   /// blocks are there (unless no cell of the other one takes part). Runs in parallel on the calling thread's arena.
   /// \throws Cancelled, Error (non-finite input that was not accepted).
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+
+  /// How large the surface is, in a small part of the time that finding it takes; nothing if that is not known.
+  /// \throws Cancelled.
+  [[nodiscard]] virtual std::optional<SurfaceForecast> forecast(const Monitor& /*monitor*/) const { return {}; }
 
   /// Lattice to world.
   [[nodiscard]] virtual const LatticeMap& map() const = 0;

@@ -22,6 +22,14 @@ class LatticeMap {
 
   [[nodiscard]] bool affine() const { return !mPosition; }
   [[nodiscard]] Vec3d position(const Vec3d& x) const { return affine() ? mLinear * x + mTranslation : mPosition(x); }
+  /// The same map with the world's origin at `origin`. \param step of rounded(); 0, or a power of two.
+  [[nodiscard]] LatticeMap relativeTo(const Vec3d& origin, double step) const;
+  /// A position as meshes hold it: in single precision, its coordinates multiples of step() unless that is 0. Each
+  /// coordinate of the result is a function of that coordinate that does not decrease.
+  [[nodiscard]] Vec3f rounded(const Vec3d& position) const {
+    return vecCast<float>(mStep > 0 ? onStep(position) : position);
+  }
+  [[nodiscard]] double step() const { return mStep; }
   /// d(position)/dx, columns are the images of the lattice axes.
   [[nodiscard]] Mat3d jacobian(const Vec3d& x) const { return affine() ? mLinear : mJacobian(x); }
   /// True if the map turns right-handed frames into left-handed ones, so that faces must be wound the other way.
@@ -30,12 +38,15 @@ class LatticeMap {
   [[nodiscard]] double voxelSize() const { return mVoxelSize; }
 
  private:
+  [[nodiscard]] Vec3d onStep(const Vec3d& p) const;
+
   Mat3d mLinear;
   Vec3d mTranslation{};
   PositionFunction mPosition;
   JacobianFunction mJacobian;
   bool mMirrored = false;
   double mVoxelSize = 1.0;
+  double mStep = 0;
 };
 
 }  // namespace pdc

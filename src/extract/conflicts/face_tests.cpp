@@ -54,7 +54,7 @@ Vec3f FaceTests::worldPosition(const SuspectVertex& v, const Vec3f& place) const
   const Coord& b = mEdgeCells.blockCoord(v.block);
   const Vec3d center{kBlockSize * double(b[0]) + c.x + 0.5, kBlockSize * double(b[1]) + c.y + 0.5,
                      kBlockSize * double(b[2]) + c.z + 0.5};
-  return vecCast<float>(mMap.position(center + vecCast<double>(place)));
+  return mMap.rounded(mMap.position(center + vecCast<double>(place)));
 }
 
 void FaceTests::triangles(const EdgeRef& e, std::uint64_t face, std::vector<Triangle>& out) const {

@@ -46,7 +46,7 @@ std::uint32_t Fans::numberAfter(std::uint64_t vertices) {
 
 std::uint32_t Fans::append(const Vec3d& position, const EdgeRef& at) {
   const std::uint32_t vertex = numberAfter(mMesh.positions.size());
-  mMesh.positions.push_back(vecCast<float>(mSource.map().position(position)));
+  mMesh.positions.push_back(mSource.map().rounded(mSource.map().position(position)));
   if (!mMesh.normals.empty()) {
     Vec3d sum{};
     for (const std::uint32_t v : mEdgeCells.vertices(at)) sum += vecCast<double>(mMesh.normals[v]);

@@ -21,9 +21,9 @@ inline bool FarFaces::staysApart(const EdgeRef& e, const Float4Box& box) const {
   if (!own.apartFrom(box)) return false;
   // It may become a fan, about a vertex on its lattice edge.
   Vec3d end = mFaces.edgeCells().lowEnd(e);
-  own.add(float4(vecCast<float>(mFaces.map().position(end))));
+  own.add(float4(mFaces.map().rounded(mFaces.map().position(end))));
   end[e.axis()] += 1;
-  own.add(float4(vecCast<float>(mFaces.map().position(end))));
+  own.add(float4(mFaces.map().rounded(mFaces.map().position(end))));
   own.addRounding();
   return own.apartFrom(box);
 }

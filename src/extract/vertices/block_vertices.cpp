@@ -197,8 +197,8 @@ struct BlockVertexSolver::Scratch {
 
   [[nodiscard]] Vec3f worldPosition(const BlockState& block, const SurfacePatch& patch, const Vec3d& x) const {
     const Vec3d inBlock = cellCenter(patch.cell) + x;
-    return vecCast<float>(map.affine() ? linear * inBlock + map.position(block.origin)
-                                       : map.position(block.origin + inBlock));
+    return map.rounded(map.affine() ? linear * inBlock + map.position(block.origin)
+                                    : map.position(block.origin + inBlock));
   }
 
   [[nodiscard]] Vec3f meanNormal(const BlockState& block, const SurfacePatch& patch) const {

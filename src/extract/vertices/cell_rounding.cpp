@@ -15,7 +15,8 @@ double cellRounding(const LatticeMap& map, const Coord& block) {
   const Mat3d K = inverse(map.jacobian(at));
   double rounding = 0;
   for (const Vec3d& row : K.row)
-    rounding = std::max(rounding, (std::abs(row.x) + std::abs(row.y) + std::abs(row.z)) * largest * 0x1p-24);
+    rounding = std::max(rounding,
+                        (std::abs(row.x) + std::abs(row.y) + std::abs(row.z)) * (largest * 0x1p-24 + 0.5 * map.step()));
   return rounding;
 }
 

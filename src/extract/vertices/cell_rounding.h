@@ -6,7 +6,7 @@
 namespace pdc::detail {
 
 /// How far, in lattice units along an axis, rounding the world coordinates of a point in or near a block to single
-/// precision may move it.
+/// precision, or to the map's step, may move it.
 [[nodiscard]] double cellRounding(const LatticeMap& map, const Coord& block);
 
 /// Half the size of the part of a block's cells whose points stay well within the cell when they are rounded so.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sample/implicit/block_signs.h"
+#include "sample/implicit/cube_descent.h"
 
 namespace pdc::detail {
 namespace {
@@ -28,46 +29,6 @@ void forEach(std::size_t size, const Monitor& monitor, Body&& body) {
   });
 }
 
-Coord blockCounts(const BlockSearch& search) {
-  Coord n;
-  for (int axis = 0; axis < 3; ++axis) n[axis] = (search.cells[axis] + kBlockSize - 1) / kBlockSize;
-  return n;
-}
-
-/// Bound over a cube of 2^level blocks. The cube is grown a little, so that neither the rounding of lattice points nor
-/// that of bound() itself can hide a surface that touches it.
-Interval boundOf(const BlockSearch& search, const Coord& cube, int level) {
-  constexpr double kRelativeMargin = 1e-6;
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
-  const double size = std::ldexp(kBlockSize, level);
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double first = cube[axis] * size;
-    const double lo = search.frame.at(axis, first), hi = search.frame.at(axis, first + size);
-    const double margin = kRelativeMargin * search.frame.voxelSize + kRounding * std::max(std::abs(lo), std::abs(hi));
-    box.lo[axis] = lo - margin;
-    box.hi[axis] = hi + margin;
-  }
-  return search.field.bound(box);
-}
-
-/// A zero may be on either side.
-bool oneSided(const Interval& bound) { return bound.lo > 0 || bound.hi < 0; }
-
-/// The cubes of the next finer level that reach into the lattice.
-std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks) {
-  std::vector<Coord> result;
-  result.reserve(8 * cubes.size());
-  for (const Coord& cube : cubes)
-    for (int corner = 0; corner < 8; ++corner) {
-      const Coord child{2 * cube[0] + (corner >> 2), 2 * cube[1] + (corner >> 1 & 1), 2 * cube[2] + (corner & 1)};
-      bool within = true;
-      for (int axis = 0; axis < 3; ++axis) within = within && child[axis] << level < blocks[axis];
-      if (within) result.push_back(child);
-    }
-  return result;
-}
-
 void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes) {
   std::vector<std::uint8_t> drop(cubes.size());
   forEach(cubes.size(), monitor, [&](std::size_t i) { drop[i] = oneSided(boundOf(search, cubes[i], level)); });
@@ -80,8 +41,7 @@ void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, 
 /// All blocks whose parents the field's bounds do not exclude, sorted.
 std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor) {
   const Coord blocks = blockCounts(search);
-  int level = 0;
-  while (1 << level < std::max({blocks[0], blocks[1], blocks[2]})) ++level;
+  int level = topLevel(blocks);
   std::vector<Coord> cubes{Coord{0, 0, 0}};
   while (level > 0) {
     dropOneSided(search, level, monitor, cubes);

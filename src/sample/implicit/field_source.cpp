@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pdc/error.h"
+#include "sample/implicit/block_forecast.h"
 #include "sample/implicit/block_search.h"
 #include "sample/implicit/capped_field.h"
 #include "sample/implicit/edge_roots.h"
@@ -61,6 +62,10 @@ FieldPtr makeLevelField(FieldPtr field, const FieldSourceOptions& options) {
   return std::make_shared<detail::CappedField>(std::move(field), options.iso, cap);
 }
 
+detail::BlockSearch searchOf(const Field& field, const FieldSourceOptions& options) {
+  return {field, frameOf(options), cellCounts(options), options.open};
+}
+
 }  // namespace
 
 long long voxelsAlong(double side, double voxelSize) {
@@ -74,7 +79,11 @@ FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
       mMap(Mat3d::diagonal(options.voxelSize, options.voxelSize, options.voxelSize), options.box.lo) {}
 
 SurfaceBlocks FieldSource::surfaceBlocks(const Monitor& monitor) const {
-  return detail::findSurfaceBlocks({*mField, frameOf(mOptions), cellCounts(mOptions), mOptions.open}, monitor);
+  return detail::findSurfaceBlocks(searchOf(*mField, mOptions), monitor);
+}
+
+std::optional<SurfaceForecast> FieldSource::forecast(const Monitor& monitor) const {
+  return detail::forecastSurfaceBlocks(searchOf(*mField, mOptions), monitor);
 }
 
 void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {

@@ -1,6 +1,7 @@
 #include "sample/vdb/grid_sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -56,6 +57,23 @@ class TypedGridSampler final : public GridSampler {
     return search.find(monitor);
   }
 
+  /// From evenly spaced leaves; surface between tiles is left out.
+  [[nodiscard]] SurfaceForecast forecast(const Monitor& monitor) const override {
+    constexpr std::size_t kMostLeaves = 2048;
+    const std::size_t count = std::min(kMostLeaves, mTable.size());
+    SurfaceForecast forecast;
+    LeafValues<typename TreeT::LeafNodeType> values;
+    for (std::size_t i = 0; i < count; ++i) {
+      monitor.throwIfStopped();
+      const std::size_t leaf = i * mTable.size() / count;
+      const double crossings = crossingsWithin(values.read(mTable.leaf(leaf), mTable.values(leaf)));
+      forecast.crossings += crossings;
+      forecast.blocks += crossings > 0 ? 1 : 0;
+    }
+    const double weight = count > 0 ? static_cast<double>(mTable.size()) / static_cast<double>(count) : 0;
+    return {.blocks = weight * forecast.blocks, .crossings = weight * forecast.crossings};
+  }
+
   void prefetch(const Coord& block) const override { mStencils.prefetch(block); }
 
   void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const override {
@@ -86,6 +104,22 @@ class TypedGridSampler final : public GridSampler {
   }
 
  private:
+  /// How many edges of a block change sign, from those between a leaf's own points, which are seven of eight.
+  [[nodiscard]] double crossingsWithin(const typename TreeT::ValueType* values) const {
+    constexpr double kShare = double(kBlockSize - 1) / kBlockSize;
+    constexpr std::uint64_t kLastZ = 0x8080808080808080, kLastY = std::uint64_t{0xFF} << 56;
+    typename ValueReader<typename TreeT::ValueType>::Remarks ignored;
+    std::uint64_t before = 0;
+    int changes = 0;
+    for (int x = 0; x < kBlockSize; ++x) {
+      const std::uint64_t w = mReader.insideBits(values + kBlockSize * kBlockSize * x, ignored);
+      changes += std::popcount((w ^ w >> 1) & ~kLastZ) + std::popcount((w ^ w >> 8) & ~kLastY);
+      if (x > 0) changes += std::popcount(w ^ before);
+      before = w;
+    }
+    return changes / kShare;
+  }
+
   typename GridT::ConstPtr mGrid;
   GridReading mReading;
   ValueReader<typename TreeT::ValueType> mReader;

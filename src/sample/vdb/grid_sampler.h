@@ -25,6 +25,7 @@ class GridSampler {
  public:
   virtual ~GridSampler() = default;
   [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+  [[nodiscard]] virtual SurfaceForecast forecast(const Monitor& monitor) const = 0;
   virtual void prefetch(const Coord& block) const = 0;
   virtual void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const = 0;
   /// Returns up to `most` leaves, as blocks, spread evenly over the tree.

@@ -136,6 +136,10 @@ GridSource::~GridSource() = default;
 
 SurfaceBlocks GridSource::surfaceBlocks(const Monitor& monitor) const { return mImpl->sampler->surfaceBlocks(monitor); }
 
+std::optional<SurfaceForecast> GridSource::forecast(const Monitor& monitor) const {
+  return mImpl->sampler->forecast(monitor);
+}
+
 const LatticeMap& GridSource::map() const { return mImpl->map; }
 
 SourceKnowledge GridSource::knowledge() const {

@@ -35,6 +35,9 @@ class FieldSource final : public HermiteSource {
   FieldSource(FieldPtr field, const FieldSourceOptions& options);
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
+  /// Where bounds decide nothing it knows only the memory for the blocks that are looked at, and what some of them
+  /// hold.
+  [[nodiscard]] std::optional<SurfaceForecast> forecast(const Monitor& monitor) const override;
   [[nodiscard]] SourceKnowledge knowledge() const override { return {.exactNormals = true}; }
   void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override;
   [[nodiscard]] const LatticeMap& map() const override { return mMap; }

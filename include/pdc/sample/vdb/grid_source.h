@@ -70,6 +70,8 @@ class GridSource final : public HermiteSource {
   ~GridSource() override;
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override;
+  /// From some of the leaves; surface that passes between tiles is left out.
+  [[nodiscard]] std::optional<SurfaceForecast> forecast(const Monitor& monitor) const override;
   [[nodiscard]] const LatticeMap& map() const override;
   [[nodiscard]] SourceKnowledge knowledge() const override;
   void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override;

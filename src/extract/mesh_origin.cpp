@@ -1,0 +1,70 @@
+#include "extract/mesh_origin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pdc/extract/contour.h"
+#include "pdc/math/box.h"
+#include "sample/block_origin.h"
+
+namespace pdc::detail {
+namespace {
+
+/// A box in the world about all cells of the blocks, with room for vertices outside of their cells.
+Box worldBox(const LatticeMap& map, const SurfaceBlocks& blocks) {
+  constexpr double kRoom = 2;  // lattice units
+  Box box = Box::empty();
+  for (const Coord& block : blocks.coords) {
+    const Vec3d low = blockOrigin(block);
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3d at = low;
+      for (int axis = 0; axis < 3; ++axis) at[axis] += (corner >> axis & 1) != 0 ? kBlockSize + kRoom : -kRoom;
+      box.include(map.position(at));
+    }
+  }
+  return box;
+}
+
+double farthest(const Box& box) {
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
+  return most;
+}
+
+Vec3d roundedTo(double step, const Vec3d& p) {
+  return {std::nearbyint(p.x / step) * step, std::nearbyint(p.y / step) * step, std::nearbyint(p.z / step) * step};
+}
+
+/// Near the centre, on a power of two that is coarse beside the box: then it has few digits.
+Vec3d chosenOrigin(const Box& box, double voxelSize) {
+  const double reach = farthest(box);
+  const double spacing = reach * std::numeric_limits<float>::epsilon();
+  if (!(spacing > kMostRounding * voxelSize)) return {};
+  const Vec3d size = box.hi - box.lo;
+  constexpr int kEighth = -3;
+  const double unit = std::ldexp(1.0, std::ilogb(std::max({size.x, size.y, size.z})) + kEighth);
+  return roundedTo(unit, box.center());
+}
+
+/// The finest power of two of which all sums up to `largest` in size are exact multiples in double precision.
+double exactStep(double largest) {
+  return std::ldexp(1.0, std::ilogb(largest) + 1 - std::numeric_limits<double>::digits);
+}
+
+}  // namespace
+
+MeshOrigin meshOrigin(const LatticeMap& map, const SurfaceBlocks& blocks, const std::optional<Vec3d>& wanted,
+                      bool exactSums) {
+  if (blocks.coords.empty() || (wanted && !exactSums)) return {.origin = wanted.value_or(Vec3d{})};
+  const Box box = worldBox(map, blocks);
+  MeshOrigin result{.origin = wanted ? *wanted : chosenOrigin(box, map.voxelSize())};
+  if (exactSums && result.origin != Vec3d{}) {
+    const Vec3d& o = result.origin;
+    result.step = exactStep(std::max({farthest(box), std::abs(o.x), std::abs(o.y), std::abs(o.z)}));
+    result.origin = roundedTo(result.step, o);
+  }
+  return result;
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "sample/implicit/block_search.h"
+
+/// The descent from one box over the lattice to its blocks, by cubes of 2^level blocks along an axis.
+namespace pdc::detail {
+
+/// Blocks of the lattice along each axis.
+[[nodiscard]] Coord blockCounts(const BlockSearch& search);
+
+/// The level of the one cube that holds all blocks.
+[[nodiscard]] int topLevel(const Coord& blocks);
+
+/// Bound over a cube. The cube is grown a little, so that neither the rounding of lattice points nor that of bound()
+/// itself can hide a surface that touches it.
+[[nodiscard]] Interval boundOf(const BlockSearch& search, const Coord& cube, int level);
+
+/// Whether a bound excludes a surface; a zero may be on either side.
+[[nodiscard]] inline bool oneSided(const Interval& bound) { return bound.lo > 0 || bound.hi < 0; }
+
+/// The cubes of the next finer `level` that reach into the lattice.
+[[nodiscard]] std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks);
+
+}  // namespace pdc::detail
