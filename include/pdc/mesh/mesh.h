@@ -19,8 +19,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// An indexed surface: vertices, and faces of three kinds, any of which may be missing.
 ///
-/// Positions are world coordinates. Faces are counter-clockwise seen from outside. A quad (v0, v1, v2, v3) stands for
-/// the triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
+/// Positions are world coordinates less the origin, which is zero unless the mesh lies so far away that single
+/// precision is too coarse there. Faces are counter-clockwise seen from outside. A quad (v0, v1, v2, v3) stands for the
+/// triangles (v0, v1, v2) and (v0, v2, v3): its first corner fixes the diagonal.
 ///
 /// A passive value that checks nothing itself. Every function that takes one throws
 ///
@@ -34,6 +35,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// Several threads may read one mesh at a time.
 struct Mesh {
   Buffer<Vec3f> positions;
+  Vec3d origin{0, 0, 0};                   ///< What positions are relative to: world coordinates are origin + position.
   Buffer<Vec3f> normals;                   ///< Empty, or one unit vector per vertex.
   std::vector<VertexProperty> properties;  ///< What else is known of each vertex.
   Buffer<Quad> quads;
