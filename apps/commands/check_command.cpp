@@ -7,8 +7,8 @@
 
 #include "commands/info_facts.h"
 #include "commands/json_report.h"
+#include "commands/mesh_file.h"
 #include "parallel/with_threads.h"
-#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
 #include "terminal/busy_sign.h"
@@ -22,27 +22,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto kBoundary = "boundary_edges";
+constexpr auto kBoundary = "boundary_edges", kNoFaces = "no_faces";
 /// Facts that are 0 or false for a clean mesh.
 constexpr std::array kFaults = {
-    kBoundary,          "non_manifold_edges",  "non_manifold_vertices", "misoriented_edges",  "duplicate_faces",
-    "degenerate_faces", "zero_area_triangles", "non_finite_vertices",   "self_intersections", "inside_out"};
+    kNoFaces,          kBoundary,          "non_manifold_edges",  "non_manifold_vertices", "misoriented_edges",
+    "duplicate_faces", "degenerate_faces", "zero_area_triangles", "non_finite_vertices",   "self_intersections",
+    "inside_out"};
 
 Json factsOf(const CheckRequest& request) {
-  Mesh mesh;
+  MeshFile file;
   MeshReport report;
   {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
-    mesh = readMesh(request.file);
-    report = analyze(mesh);
+    file = readMeshFile(request.file, request.quiet);
+    report = analyze(file.mesh);
   }
   ProgressBar bar(!request.quiet);
   const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-  const SelfIntersections found = selfIntersections(mesh, {}, {.progress = show, .stop = &interruptFlag()});
+  const SelfIntersections found = selfIntersections(file.mesh, {}, {.progress = show, .stop = &interruptFlag()});
 
   Json facts{{"file", request.file.string()}};
-  facts.update(meshFacts(report));
+  facts.update(meshFacts(file, report));
+  facts[kNoFaces] = file.mesh.empty();
   facts["inside_out"] = report.boundaryEdges == 0 && report.volume < 0;
   facts["zero_area_triangles"] = found.degenerateTriangles;
   facts["self_intersections"] = found.pairs.size();
@@ -50,10 +52,10 @@ Json factsOf(const CheckRequest& request) {
   return facts;
 }
 
-Json faultsIn(const Json& facts, bool allowBoundary) {
+Json faultsIn(const Json& facts, const CheckRequest& request) {
   Json faults = Json::array();
   for (const char* name : kFaults) {
-    if (name == kBoundary && allowBoundary) continue;
+    if ((name == kBoundary && request.allowBoundary) || (name == kNoFaces && request.allowEmpty)) continue;
     const Json& fact = facts[name];
     if (fact.is_boolean() ? fact.get<bool>() : fact.get<std::size_t>() > 0) faults.push_back(name);
   }
@@ -78,12 +80,15 @@ std::string verdict(const Json& facts) {
 void addCheckOptions(CLI::App& command, CheckRequest& request) {
   command.add_option("MESH", request.file, ".ply, .obj, .off or .stl")->required()->type_name("");
   command.add_flag("--allow-boundary", request.allowBoundary, "Edges with one face are no fault");
+  command.add_flag("--allow-empty", request.allowEmpty, "A mesh without faces is no fault");
   command.add_option("--json", request.json, "The same for programs; - is standard output")->type_name("FILE");
   command.add_flag("--quiet", request.quiet, "No text and no progress bar");
   addThreads(command, request.threads);
   command.footer(
-      "Exit code 0 if the mesh is clean: the oriented boundary of a solid, without boundary edges, non-manifold edges\n"
-      "and vertices, misoriented edges, duplicate, degenerate and zero-area faces, non-finite vertices and triangles\n"
+      "Exit code 0 if the mesh is clean: the oriented boundary of a solid, with faces, without boundary edges, "
+      "non-manifold\n"
+      "edges and vertices, misoriented edges, duplicate, degenerate and zero-area faces, non-finite vertices and "
+      "triangles\n"
       "that intersect, and not inside out. Unused vertices are no fault. 1 if it is not, or cannot be read.\n"
       "Example: pdc check part.ply");
 }
@@ -91,13 +96,13 @@ void addCheckOptions(CLI::App& command, CheckRequest& request) {
 bool runCheck(const CheckRequest& request) {
   checkJsonPath(request.json);
   Json facts = detail::withThreads(request.threads.value_or(0), [&] { return factsOf(request); });
-  facts["faults"] = faultsIn(facts, request.allowBoundary);
+  facts["faults"] = faultsIn(facts, request);
   facts["clean"] = facts["faults"].empty();
 
   writeJson(facts, request.json);
   if (request.json.empty() && !request.quiet) {
     Json shown = facts;
-    for (const char* name : {"faults", "clean"}) shown.erase(name);
+    for (const char* name : {"faults", "clean", "warnings"}) shown.erase(name);
     printFacts(shown);
     fmt::print("{}\n", verdict(facts));
   }

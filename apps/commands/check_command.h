@@ -10,7 +10,7 @@ namespace pdc {
 struct CheckRequest {
   std::filesystem::path file, json;
   std::optional<int> threads;
-  bool allowBoundary = false, quiet = false;
+  bool allowBoundary = false, allowEmpty = false, quiet = false;
 };
 
 void addCheckOptions(CLI::App& command, CheckRequest& request);

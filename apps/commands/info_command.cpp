@@ -18,11 +18,12 @@ void addInfoOptions(CLI::App& command, InfoRequest& request) {
 void runInfo(const InfoRequest& request) {
   checkJsonPath(request.json);
   const ExitOnInterrupt scope;
-  const nlohmann::ordered_json facts = [&] {
+  nlohmann::ordered_json facts = [&] {
     const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
     return gatherFacts(request.file);
   }();
   if (request.json.empty()) {
+    facts.erase("warnings");  // They are on standard error already.
     printFacts(facts);
   } else {
     writeJson(facts, request.json);

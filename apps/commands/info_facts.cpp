@@ -1,7 +1,6 @@
 #include "commands/info_facts.h"
 
 #include "commands/json_report.h"
-#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
@@ -61,9 +60,9 @@ Json sceneFacts(const std::filesystem::path& path) {
 }
 
 Json meshFileFacts(const std::filesystem::path& path) {
-  const Mesh mesh = readMesh(path);
-  Json facts = meshFacts(analyze(mesh));
-  for (const VertexProperty& property : mesh.properties)
+  const MeshFile file = readMeshFile(path);
+  Json facts = meshFacts(file, analyze(file.mesh));
+  for (const VertexProperty& property : file.mesh.properties)
     facts["properties"].push_back(
         {{"name", property.name}, {"type", typeName(property)}, {"components", property.components}});
   return facts;
@@ -82,26 +81,29 @@ Json factsByKind(const std::filesystem::path& path) {
 
 }  // namespace
 
-Json meshFacts(const MeshReport& report) {
-  return {{"kind", "mesh"},
-          {"vertices", report.vertices},
-          {"quads", report.quads},
-          {"triangles", report.triangles},
-          {"edges", report.edges},
-          {"euler_number", report.eulerNumber},
-          {"components", report.components},
-          {"boundary_edges", report.boundaryEdges},
-          {"non_manifold_edges", report.nonManifoldEdges},
-          {"non_manifold_vertices", report.nonManifoldVertices},
-          {"misoriented_edges", report.misorientedEdges},
-          {"unused_vertices", report.unusedVertices},
-          {"degenerate_faces", report.degenerateFaces},
-          {"duplicate_faces", report.duplicateFaces},
-          {"non_finite_vertices", report.nonFiniteVertices},
-          {"area", report.area},
-          {"volume", report.volume},
-          {"bounds_lo", toJson(report.bounds.lo)},
-          {"bounds_hi", toJson(report.bounds.hi)}};
+Json meshFacts(const MeshFile& file, const MeshReport& report) {
+  Json facts{{"kind", "mesh"},
+             {"vertices", report.vertices},
+             {"quads", report.quads},
+             {"triangles", report.triangles},
+             {"edges", report.edges},
+             {"euler_number", report.eulerNumber},
+             {"components", report.components},
+             {"boundary_edges", report.boundaryEdges},
+             {"non_manifold_edges", report.nonManifoldEdges},
+             {"non_manifold_vertices", report.nonManifoldVertices},
+             {"misoriented_edges", report.misorientedEdges},
+             {"unused_vertices", report.unusedVertices},
+             {"degenerate_faces", report.degenerateFaces},
+             {"duplicate_faces", report.duplicateFaces},
+             {"non_finite_vertices", report.nonFiniteVertices},
+             {"area", report.area},
+             {"volume", report.volume},
+             {"bounds_lo", toJson(report.bounds.lo)},
+             {"bounds_hi", toJson(report.bounds.hi)}};
+  if (file.mesh.origin != Vec3d{0, 0, 0}) facts["origin"] = toJson(file.mesh.origin);
+  facts["warnings"] = file.warnings;
+  return facts;
 }
 
 Json gatherFacts(const std::filesystem::path& path) {

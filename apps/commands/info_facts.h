@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "commands/mesh_file.h"
 #include "pdc/mesh/mesh_report.h"
 
 namespace pdc {
@@ -12,7 +13,7 @@ namespace pdc {
 /// \throws Error for files that cannot be read.
 [[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
 
-/// What the report on a mesh says.
-[[nodiscard]] nlohmann::ordered_json meshFacts(const MeshReport& report);
+/// What the report on a mesh says, with its origin unless that is zero, and what the reader warned of.
+[[nodiscard]] nlohmann::ordered_json meshFacts(const MeshFile& file, const MeshReport& report);
 
 }  // namespace pdc

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "commands/json_report.h"
@@ -16,13 +15,14 @@
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
+#include "terminal/warning.h"
 
 namespace pdc {
 namespace {
 
 void warn(MeshRun& run, const std::string& message) {
   run.warnings.push_back(message);
-  std::fputs(fmt::format("pdc: warning: {}\n", message).c_str(), stderr);
+  printWarning(message);
 }
 
 void checkSurface(const MeshRequest& request, const Input& input, const Mesh& mesh, MeshRun& run) {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "commands/mesh_file.h"
 #include "commands/shading_values.h"
 #include "parallel/with_threads.h"
-#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/png_writer.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
@@ -42,7 +42,7 @@ Image draw(const RenderRequest& request, std::string& scale) {
   const Mesh mesh = [&] {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "reading " + request.mesh.filename().string());
-    return readMesh(request.mesh);
+    return readMeshFile(request.mesh).mesh;
   }();
   if (mesh.empty())
     throw Error(fmt::format("{}: the mesh has no faces, so there is nothing to draw", request.mesh.string()));

@@ -7,8 +7,8 @@
 #include <limits>
 #include <variant>
 
+#include "commands/mesh_file.h"
 #include "pdc/error.h"
-#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/distance.h"
 
 namespace pdc {
@@ -39,7 +39,7 @@ Buffer<float> scalars(const VertexProperty& property) {
 
 Buffer<float> distancesTo(const std::filesystem::path& reference, const Mesh& mesh, const Monitor& monitor) {
   Buffer<float> values;
-  for (const double d : distances(mesh.positions, readMesh(reference), monitor))
+  for (const double d : vertexDistances(mesh, readMeshFile(reference).mesh, monitor))
     values.push_back(static_cast<float>(d));
   return values;
 }

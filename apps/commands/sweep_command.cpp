@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "pdc/io/mesh/mesh_reader.h"
+#include "commands/mesh_file.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/render/render.h"
@@ -39,7 +39,7 @@ SweepTruth truthOf(const Input& input) {
 /// Reads what --reference names: a scene, whose creases are found on its own lattice, or a mesh.
 SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
   if (inputKind(path) == InputKind::kScene) return truthOf(reading(path, quiet, [&] { return openInput(path); }));
-  auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMesh(path); }));
+  auto mesh = std::make_shared<Mesh>(reading(path, quiet, [&] { return readMeshFile(path).mesh; }));
   if (mesh->empty()) throw Error(fmt::format("{}: the reference has no faces", path.string()));
   return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
 }

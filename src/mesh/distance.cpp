@@ -47,9 +47,8 @@ Buffer<std::uint32_t> finiteTriangles(const Mesh& mesh) {
   return numbers;
 }
 
-}  // namespace
-
-Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const Monitor& monitor) {
+/// \param offset what to add to the points to make them relative to the mesh's origin.
+Buffer<double> measure(std::span<const Vec3f> points, const Vec3d& offset, const Mesh& mesh, const Monitor& monitor) {
   detail::checkSizes(mesh, "distances");
   detail::checkIndices(mesh);
   Buffer<std::uint32_t> triangles = finiteTriangles(mesh);
@@ -61,7 +60,7 @@ Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const 
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& range) {
     monitor.throwIfStopped();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Vec3d p = vecCast<double>(points[i]);
+      const Vec3d p = vecCast<double>(points[i]) + offset;
       double nearest = std::numeric_limits<double>::infinity();
       if (detail::isFinite(points[i]))
         tree.visitNearest(p, nearest, [&](std::uint32_t t) {
@@ -73,6 +72,16 @@ Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const 
       monitor.progress("measuring", static_cast<double>(done += range.size()) / static_cast<double>(points.size()));
   });
   return result;
+}
+
+}  // namespace
+
+Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const Monitor& monitor) {
+  return measure(points, -mesh.origin, mesh, monitor);
+}
+
+Buffer<double> vertexDistances(const Mesh& from, const Mesh& mesh, const Monitor& monitor) {
+  return measure(from.positions, from.origin - mesh.origin, mesh, monitor);
 }
 
 }  // namespace pdc

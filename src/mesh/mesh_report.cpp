@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "mesh/connectivity.h"
+#include "mesh/ear_clipping.h"
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 
@@ -175,8 +176,9 @@ std::size_t countComponents(const Mesh& mesh, const Connectivity& connectivity) 
   });
 }
 
+/// Relative to the mesh's origin.
 Box boundsOf(const Mesh& mesh, const Connectivity& connectivity) {
-  const Box bounds = tbb::parallel_reduce(
+  return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, connectivity.vertices(), kGrain), Box::empty(),
       [&](const tbb::blocked_range<std::size_t>& range, Box box) {
         for (std::size_t v = range.begin(); v != range.end(); ++v) {
@@ -189,8 +191,19 @@ Box boundsOf(const Mesh& mesh, const Connectivity& connectivity) {
         a.include(b);
         return a;
       });
-  return bounds.isEmpty() ? Box{} : bounds;
 }
+
+/// The triangles of a polygon, kept with the memory for the next one's.
+struct PolygonTriangles {
+  detail::EarClipper clipper;
+  Buffer<Triangle> triangles;
+
+  const Buffer<Triangle>& of(std::span<const Index> polygon, const Buffer<Vec3f>& positions) {
+    triangles.resize(polygon.size() - 2);
+    clipper.triangulate(polygon, positions, triangles.data());
+    return triangles;
+  }
+};
 
 struct Measures {
   double area = 0, volume = 0;
@@ -203,15 +216,21 @@ struct Measures {
 
 /// Volume is summed relative to `center`, which keeps the terms of a small mesh far from the origin small.
 Measures measure(const Mesh& mesh, const Vec3d& center) {
+  tbb::enumerable_thread_specific<PolygonTriangles> polygons;
   return sumOver<Measures>(faceCount(mesh), [&](std::size_t i, Measures& sum) {
     const auto f = face(mesh, i);
     for (const Index v : f)
       if (!isFinite(mesh.positions[v])) return;
-    const auto at = [&](std::size_t k) { return vecCast<double>(mesh.positions[f[k]]) - center; };
-    for (std::size_t k = 2; k < f.size(); ++k) {
-      const Vec3d a = at(0), b = at(k - 1), c = at(k);
+    const auto at = [&](Index v) { return vecCast<double>(mesh.positions[v]) - center; };
+    const auto add = [&](const Triangle& t) {
+      const Vec3d a = at(t[0]), b = at(t[1]), c = at(t[2]);
       sum.area += 0.5 * length(cross(b - a, c - a));
       sum.volume += dot(a, cross(b, c)) / 6.0;
+    };
+    if (f.size() > std::tuple_size_v<Quad>) {
+      for (const Triangle& t : polygons.local().of(f, mesh.positions)) add(t);
+    } else {
+      for (std::size_t k = 2; k < f.size(); ++k) add({f[0], f[k - 1], f[k]});
     }
   });
 }
@@ -245,8 +264,9 @@ MeshReport analyze(const Mesh& mesh, const Monitor& monitor) {
                        static_cast<long long>(faceCount(mesh));
   monitor.throwIfStopped();
   report.components = countComponents(mesh, connectivity);
-  report.bounds = boundsOf(mesh, connectivity);
-  const Measures measures = measure(mesh, report.bounds.center());
+  const Box bounds = boundsOf(mesh, connectivity);
+  if (!bounds.isEmpty()) report.bounds = {mesh.origin + bounds.lo, mesh.origin + bounds.hi};
+  const Measures measures = measure(mesh, bounds.isEmpty() ? Vec3d{} : bounds.center());
   report.area = measures.area;
   report.volume = measures.volume;
   return report;

@@ -1,7 +1,9 @@
 #include "pdc/mesh/triangulate_polygons.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "mesh/ear_clipping.h"
 #include "mesh/mesh_checks.h"
 
 namespace pdc {
@@ -10,13 +12,14 @@ void triangulatePolygons(Mesh& mesh) {
   detail::checkSizes(mesh, "triangulatePolygons", detail::FaceKinds::kAll);
   const Polygons& polygons = mesh.polygons;
   if (polygons.empty()) return;
+  detail::checkIndices(mesh);
   // Each polygon makes two triangles less than it has corners, so those before it tell where its own begin.
   const std::size_t before = mesh.triangles.size();
   mesh.triangles.resize(before + polygons.corners.size() - 2 * polygons.size());
+  tbb::enumerable_thread_specific<detail::EarClipper> clippers;
   tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t i) {
-    const auto polygon = polygons[i];
-    Triangle* out = mesh.triangles.data() + before + polygons.starts[i] - 2 * i;
-    for (std::size_t k = 2; k < polygon.size(); ++k) *out++ = {polygon[0], polygon[k - 1], polygon[k]};
+    clippers.local().triangulate(polygons[i], mesh.positions,
+                                 mesh.triangles.data() + before + polygons.starts[i] - 2 * i);
   });
   mesh.polygons = {};
 }

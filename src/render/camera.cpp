@@ -25,13 +25,13 @@ Mat3d axesOf(const Vec3d& towardsViewer) {
   return {{right, cross(back, right), back}};
 }
 
-/// Grows lo and hi to hold the mesh's faces seen along the axes.
-void include(const Mesh& mesh, const Mat3d& axes, Vec3d& lo, Vec3d& hi) {
+/// Grows lo and hi to hold the mesh's faces, moved by an offset, seen along the axes.
+void include(const Mesh& mesh, const Vec3d& offset, const Mat3d& axes, Vec3d& lo, Vec3d& hi) {
   for (std::size_t i = 0; i < detail::triangleCount(mesh); ++i) {
     const auto corners = detail::corners(mesh, detail::triangle(mesh, i));
     if (!std::all_of(corners.begin(), corners.end(), detail::isFinite)) continue;
     for (const Vec3f& corner : corners) {
-      const Vec3d p = axes * vecCast<double>(corner);
+      const Vec3d p = axes * (offset + vecCast<double>(corner));
       for (int k = 0; k < 3; ++k) {
         lo[k] = std::min(lo[k], p[k]);
         hi[k] = std::max(hi[k], p[k]);
@@ -58,18 +58,20 @@ Camera fitCamera(std::span<const Mesh> meshes, const Vec3d& towardsViewer, int w
   if (!(l > 0) || !std::isfinite(l)) throw std::invalid_argument("fitCamera: the viewer's direction is no direction");
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Mat3d axes = axesOf(towardsViewer);
+  // Relative to one of the meshes, so that sums stay small.
+  const Vec3d origin = meshes.empty() ? Vec3d{} : meshes.front().origin;
   Vec3d lo{kInfinity, kInfinity, kInfinity}, hi = -lo;
   for (const Mesh& mesh : meshes) {
     detail::checkSizes(mesh, "fitCamera");
     detail::checkIndices(mesh);
-    include(mesh, axes, lo, hi);
+    include(mesh, mesh.origin - origin, axes, lo, hi);
   }
   if (!(lo.x <= hi.x)) throw Error("nothing to show: the mesh has no face with finite corners");
   const Vec3d size = hi - lo;
   const double free = 1 - 2 * kMargin;
   // A mesh that is one point looks the same at any scale.
   const double scale = std::min(free * width / size.x, free * height / size.y);
-  return {axes, axes.transposed() * ((lo + hi) * 0.5), std::isfinite(scale) ? scale : 1};
+  return {axes, origin + axes.transposed() * ((lo + hi) * 0.5), std::isfinite(scale) ? scale : 1};
 }
 
 }  // namespace pdc

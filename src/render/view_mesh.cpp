@@ -56,9 +56,10 @@ ViewMesh viewMesh(const Mesh& mesh, const Camera& camera, int width, int height)
   ViewMesh view;
   view.positions.resize(mesh.positions.size() + 1);
   view.positions.back() = {};
+  const Vec3d offset = mesh.origin - camera.center;
   const Vec3d middle{0.5 * width, 0.5 * height, 0};
   tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) {
-    const Vec3d p = vecCast<double>(mesh.positions[i]) - camera.center;
+    const Vec3d p = vecCast<double>(mesh.positions[i]) + offset;
     view.positions[i] = vecCast<float>(middle + camera.axes * p * camera.pixelsPerUnit);
   });
 

@@ -28,12 +28,12 @@ namespace {
 constexpr double kFlatDegrees = 15;
 
 /// |f| / |grad f| at each point, which is its distance from f = 0 to first order.
-Buffer<double> distancesToField(const Buffer<Vec3f>& points, const Field& field, const Monitor& monitor) {
-  Buffer<double> result(points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
+Buffer<double> distancesToField(const Mesh& mesh, const Field& field, const Monitor& monitor) {
+  Buffer<double> result(mesh.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), 256), [&](const auto& range) {
     monitor.throwIfStopped();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Vec3d p = vecCast<double>(points[i]);
+      const Vec3d p = mesh.origin + vecCast<double>(mesh.positions[i]);
       double value = 0;
       Vec3d g{};
       field.gradients({&p.x, &p.y, &p.z, 1}, &value, {&g.x, &g.y, &g.z});
@@ -79,9 +79,9 @@ void measure(const Mesh& mesh, const std::vector<std::uint8_t>& flat, const Swee
   step.faces = mesh.quads.size() + mesh.triangles.size();
   if (mesh.empty()) return;
   if (truth.field != nullptr) {
-    summarize(distancesToField(mesh.positions, *truth.field, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
+    summarize(distancesToField(mesh, *truth.field, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
   } else if (truth.reference != nullptr) {
-    summarize(distances(mesh.positions, *truth.reference, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
+    summarize(vertexDistances(mesh, *truth.reference, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
   }
   if (!truth.creases.empty())
     summarize(distances(truth.creases, mesh, monitor), step.voxelSize, step.creaseRms, step.creaseMax);

@@ -80,6 +80,42 @@ TEST(CheckCommand, OpenMeshesMayBeAllowed) {
   EXPECT_EQ(check(folded, {"--allow-boundary"}).facts["faults"], (Json{"self_intersections"}));
 }
 
+TEST(CheckCommand, AMeshWithoutFacesIsNotClean) {
+  const TemporaryFolder folder;
+  for (const std::string& content : {"# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"}) {
+    const std::string file = folder.write("empty.obj", content);
+    const Checked checked = check(file);
+    EXPECT_EQ(checked.exitCode, 1);
+    EXPECT_EQ(checked.facts["no_faces"], true);
+    EXPECT_EQ(checked.facts["faults"], (Json{"no_faces"}));
+    EXPECT_EQ(check(file, {"--allow-empty"}).exitCode, 0);
+    const Outcome text = runPdc({"check", file});
+    EXPECT_NE(text.out.find("\nnot clean: no faces\n"), std::string::npos) << text.out;
+  }
+}
+
+TEST(CheckCommand, WhatIsNoMeshIsNeverClean) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl"})
+    for (const char* command : {"check", "info"})
+      expectOneLineRefusal(
+          runPdc({command, folder.write(name, "<!DOCTYPE html><html><body>404: Not Found</body></html>")}), 1,
+          {name, "it seems to be an HTML page"});
+}
+
+TEST(CheckCommand, WarningsOfTheReaderAreShownAndReported) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("tetrahedron.stl", kTetrahedron);
+  const std::string warning = file + ": an STL file by its suffix, but an OBJ file by its content, and read as that";
+  const Outcome outcome = runPdc({"check", file, "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.err, "pdc: warning: " + warning + "\n");
+  EXPECT_EQ(Json::parse(outcome.out)["warnings"], (Json{warning}));
+  EXPECT_EQ(runPdc({"check", file, "--quiet"}).err, "");
+  const Outcome text = runPdc({"check", file});
+  EXPECT_EQ(text.out.find("warning"), std::string::npos) << text.out;
+}
+
 TEST(CheckCommand, VerdictSaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file =

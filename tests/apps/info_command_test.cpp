@@ -60,6 +60,20 @@ TEST(InfoCommand, MeshFacts) {
   EXPECT_EQ(facts["bounds_hi"], (Json{1.0, 1.0, 1.0}));
 }
 
+TEST(InfoCommand, SaysTheOriginOfAMeshFarAway) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("far.obj", "v 500000.1 4649776.1 0\nv 500000.2 4649776.1 0\nv 500000.1 4649776.2 0\nf 1 2 3\n");
+  const Json facts = Json::parse(runPdc({"info", file, "--json", "-"}).out);
+  EXPECT_NEAR(facts["origin"][1], 4649776.15, 0.01);
+  EXPECT_NEAR(facts["bounds_lo"][1], 4649776.1, 1e-8);
+  EXPECT_NEAR(facts["bounds_hi"][1], 4649776.2, 1e-8);
+  EXPECT_NEAR(facts["area"], 0.005, 1e-9);
+  EXPECT_EQ(facts["warnings"], Json::array());
+  const Json near = Json::parse(runPdc({"info", folder.write("near.obj", "v 0 0 0\n"), "--json", "-"}).out);
+  EXPECT_FALSE(near.contains("origin"));
+}
+
 TEST(InfoCommand, ListsThePropertiesOfVertices) {
   const TemporaryFolder folder;
   const std::string file =

@@ -15,7 +15,7 @@ declare -A room_of=(
   [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/vdb]=2
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
   [field]=0 [field/primitives]=1 [field/operators]=1
-  [io/file]=0 [io/openmesh]=1 [io/mesh]=2 [io/vdb]=1 [io/scene]=2 [io]=3
+  [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/scene]=2 [io]=4
   [apps/terminal]=0 [apps/commands]=1 [apps]=2
 )
 

@@ -26,6 +26,17 @@ TEST(Distance, ToACube) {
   EXPECT_EQ(distance({1, -1, 1}, mesh), 0);
 }
 
+TEST(Distance, HeedsTheOriginsOfBothMeshes) {
+  Mesh here;
+  here.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  here.triangles = {{0, 1, 2}};
+  here.origin = {1e8, 0, 0};
+  Mesh there = here;
+  there.origin = {1e8, 0, 0.375};
+  EXPECT_EQ(vertexDistances(here, there), (Buffer<double>{0.375, 0.375, 0.375}));
+  EXPECT_EQ(distance({1e8F, 0, 0.5F}, there), 0.125) << "from a place in the world";
+}
+
 TEST(Distance, ToATriangleOfNoAreaIsThatToItsEdges) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {50, 50, 50}};

@@ -77,6 +77,18 @@ void expectClosedManifold(const MeshReport& r) {
   EXPECT_EQ(r.nonFiniteVertices, 0u);
 }
 
+TEST(MeshReport, BoundsAreInTheWorldAndTheRestDoesNotDependOnTheOrigin) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const MeshReport there = analyze(mesh);
+  mesh.origin = {4649776.1, -1e9, 0.3};
+  const MeshReport far = analyze(mesh);
+  EXPECT_EQ(far.bounds, (Box{mesh.origin, mesh.origin + Vec3d{1, 1, 1}}));
+  EXPECT_EQ(far.volume, there.volume);
+  EXPECT_EQ(far.area, there.area);
+}
+
 TEST(MeshReport, EmptyMesh) {
   const MeshReport r = analyze(Mesh{});
   expectClosedManifold(r);

@@ -47,6 +47,15 @@ TEST(Camera, ShowsAllMeshesAsLargeAsTheyGo) {
   EXPECT_NEAR(seen(camera, {10.5, 0, 0}).x, 92, 1e-6);
 }
 
+TEST(Camera, HeedsTheOriginsOfMeshes) {
+  std::array<Mesh, 2> meshes{cube(), cube()};
+  meshes[0].origin = {1e9, 1e9, 0};
+  meshes[1].origin = {1e9 + 10, 1e9, 0};
+  const Camera camera = fitCamera(meshes, *viewNamed("front"), 200, 100);
+  EXPECT_NEAR(seen(camera, {1e9 - 1, 0, 0}).x, -92, 1e-4);
+  EXPECT_NEAR(seen(camera, {1e9 + 11, 0, 0}).x, 92, 1e-4);
+}
+
 TEST(Camera, LeavesOutWhatNoFaceUsesAndWhatIsNotFinite) {
   Mesh mesh = cube();
   mesh.positions.push_back({100, 100, 100});

@@ -24,6 +24,13 @@ Image draw(const Mesh& mesh, RenderOptions options = {}) {
   return render(mesh, options);
 }
 
+TEST(Render, DoesNotDependOnTheOrigin) {
+  Mesh mesh = cube();
+  const Image near = draw(mesh);
+  mesh.origin = {1 << 30, -(1 << 29), 1 << 28};
+  EXPECT_EQ(draw(mesh).pixels, near.pixels);
+}
+
 int brightness(const Pixel& p) { return p[0] + p[1] + p[2]; }
 
 std::size_t covered(const Image& image) {

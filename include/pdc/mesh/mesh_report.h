@@ -9,7 +9,8 @@
 namespace pdc {
 
 /// Plain facts about a mesh taken as a soup of indexed faces. Quads and polygons count as one face with as many edges
-/// as corners for topology, and as fans of triangles from their first corner for area and volume.
+/// as corners for topology; for area and volume, quads as the two triangles that they stand for and polygons as those
+/// that triangulatePolygons() makes.
 struct MeshReport {
   std::size_t vertices = 0, quads = 0, triangles = 0, polygons = 0;
   std::size_t edges = 0;
@@ -25,12 +26,12 @@ struct MeshReport {
   long long eulerNumber = 0;          ///< V - E + F, unused vertices left out.
   double area = 0;                    ///< World units squared.
   double volume = 0;                  ///< Signed, by the divergence theorem; positive if faces point outwards.
-  Box bounds{};                       ///< The box of the used vertices that are finite; zero if there are none.
+  Box bounds{};  ///< Of the used vertices that are finite, in world coordinates; zero if there are none.
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that
-/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says; Cancelled, which is noticed
-/// between passes over the mesh. No progress is reported.
+/// does not exist or there are more than 2^32 - 1 faces; std::invalid_argument as Mesh says; Cancelled, which is
+/// noticed between passes over the mesh. No progress is reported.
 [[nodiscard]] MeshReport analyze(const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace pdc

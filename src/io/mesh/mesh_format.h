@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-namespace pdc::detail {
+#include "io/parse/content.h"
 
-enum class MeshFormat { kPly, kObj, kStl, kOff };
+namespace pdc::detail {
 
 /// What a file is by its suffix, in any case. \throws Error for any other suffix, naming those that are known.
 [[nodiscard]] MeshFormat meshFormat(const std::filesystem::path& path);

@@ -1,12 +1,15 @@
 #include "io/mesh/obj_writer.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
-#include <string_view>
+#include <string>
 
 #include "io/file/atomic_file.h"
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
+#include "io/parse/origin_text.h"
 
 namespace pdc::detail {
 namespace {
@@ -55,9 +58,9 @@ void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
 }  // namespace
 
 void writeObj(const Mesh& mesh, AtomicFile& file) {
-  constexpr std::string_view kHeader = "# pdc\n";
+  const std::string header = fmt::format("# {}\n{}", kOwnComment, originLine(mesh, "# "));
   const bool normals = !mesh.normals.empty();
-  file.write(kHeader.data(), kHeader.size());
+  file.write(header.data(), header.size());
   writeVectors(mesh.positions, false, file);
   writeVectors(mesh.normals, true, file);
   writeFaces(mesh.quads, normals, file);

@@ -15,7 +15,8 @@
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
-#include "io/mesh/ply_columns.h"
+#include "io/parse/origin_text.h"
+#include "io/parse/ply_columns.h"
 #include "mesh/faces.h"
 
 namespace pdc::detail {
@@ -40,10 +41,10 @@ std::string header(const Mesh& mesh, bool ascii) {
     for (const std::string& name : plyColumnNames(property))
       properties += fmt::format("property {} {}\n", plyTypeName(plyType(property)), name);
   return fmt::format(
-      "ply\nformat {} 1.0\ncomment pdc\n"
+      "ply\nformat {} 1.0\ncomment {}\n{}"
       "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}{}"
       "element face {}\nproperty list {} {} vertex_indices\nend_header\n",
-      ascii ? "ascii" : "binary_little_endian", mesh.positions.size(),
+      ascii ? "ascii" : "binary_little_endian", kOwnComment, originLine(mesh, "comment "), mesh.positions.size(),
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties,
       faceCount(mesh), areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(mesh.positions.size()));
 }

@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/IO/IOManager.hh>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <locale>
 #include <ostream>
 #include <streambuf>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/file/atomic_file.h"
 #include "io/openmesh/openmesh_quiet.h"
 #include "io/openmesh/plain_exporter.h"
+#include "io/parse/origin_text.h"
 #include "mesh/faces.h"
 #include "pdc/error.h"
 #include "pdc/mesh/triangulate_polygons.h"
@@ -68,13 +73,35 @@ class SoupExporter final : public PlainExporter {
   bool mSplit;
 };
 
+/// What a file is to begin with in place of the bytes that OpenMesh begins it with.
+struct Title {
+  std::size_t replaced = 0;  ///< Bytes.
+  std::string text{};
+};
+
+/// The title of a .stl file with the mesh's origin; OpenMesh's own if that is zero.
+Title stlTitle(const Mesh& mesh, bool binary) {
+  if (mesh.origin == Vec3d{0, 0, 0}) return {};
+  std::string origin = originText(mesh.origin);
+  if (!binary) return {.replaced = std::string_view("solid \n").size(), .text = fmt::format("solid {}\n", origin)};
+  constexpr std::size_t kHeader = 80;
+  if (origin.size() > kHeader)
+    throw Error(fmt::format("\"{}\" does not fit into the {} bytes of a .stl file's header", origin, kHeader));
+  origin.resize(kHeader, ' ');
+  return {.replaced = kHeader, .text = std::move(origin)};
+}
+
 /// Takes what a stream writes into an AtomicFile.
 class FileBuffer final : public std::streambuf {
  public:
-  explicit FileBuffer(AtomicFile& file) : mFile(file), mBytes(1 << 20) { reset(); }
+  FileBuffer(AtomicFile& file, Title title) : mFile(file), mTitle(std::move(title)), mBytes(1 << 20) { reset(); }
 
   void flush() {
-    mFile.write(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+    // The buffer is larger than any title, so its bytes come together.
+    const std::size_t size = static_cast<std::size_t>(pptr() - pbase()), replaced = std::min(size, mTitle.replaced);
+    mFile.write(mTitle.text.data(), mTitle.text.size());
+    mFile.write(pbase() + replaced, size - replaced);
+    mTitle = {};
     reset();
   }
 
@@ -89,6 +116,7 @@ class FileBuffer final : public std::streambuf {
   void reset() { setp(mBytes.data(), mBytes.data() + mBytes.size()); }
 
   AtomicFile& mFile;
+  Title mTitle;
   std::vector<char> mBytes;
 };
 
@@ -98,7 +126,7 @@ void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, c
   if (exporter.n_faces() > kMax || exporter.n_vertices() > kMax)
     throw Error(fmt::format("a .{} file takes at most {} vertices and faces, the mesh has {} and {}", format, kMax,
                             exporter.n_vertices(), exporter.n_faces()));
-  FileBuffer buffer(file);
+  FileBuffer buffer(file, split ? stlTitle(mesh, options.is_binary()) : Title{});
   std::ostream stream(&buffer);
   stream.imbue(std::locale::classic());
   stream.exceptions(std::ios::badbit);  // lets Error through from the buffer
@@ -118,6 +146,12 @@ void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii) {
   write(triangulated, file, "stl", true, options);
 }
 
-void writeOff(const Mesh& mesh, AtomicFile& file) { write(mesh, file, "off", false, OpenMesh::IO::Options::Default); }
+void writeOff(const Mesh& mesh, AtomicFile& file) {
+  write(mesh, file, "off", false, OpenMesh::IO::Options::Default);
+  // Comments come last, where no reader minds them.
+  std::string comments = originLine(mesh, "# ");
+  if (!mesh.quads.empty()) comments += fmt::format("# {}\n", kOwnComment);
+  file.write(comments.data(), comments.size());
+}
 
 }  // namespace pdc::detail

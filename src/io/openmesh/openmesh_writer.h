@@ -10,7 +10,8 @@ class AtomicFile;
 /// too. Quads and polygons become triangles; text or binary. The normal of a triangle without area is zero. \throws
 /// Error if there are more faces than OpenMesh can count (2^31 - 1).
 void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii);
-/// Text; quads come before triangles, and those before polygons. \throws Error as above.
+/// Text, with the origin and that we wrote it in comments at the end; quads come before triangles, and those before
+/// polygons. \throws Error as above.
 void writeOff(const Mesh& mesh, AtomicFile& file);
 
 }  // namespace pdc::detail

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/file/temporary_folder.h"
+#include "io/mesh/read_text.h"
 #include "pdc/error.h"
 #include "pdc/mesh/mesh_report.h"
 
@@ -19,35 +20,6 @@ namespace pdc {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Reads `contents` from a file of that name.
-Mesh readText(const std::string& name, std::string_view contents) {
-  const TemporaryFolder folder;
-  writeContents(folder / name, contents);
-  return readMesh(folder / name);
-}
-
-/// What the error says after the file's name; empty if there is none.
-std::string errorOf(const std::string& name, std::string_view contents) {
-  const TemporaryFolder folder;
-  writeContents(folder / name, contents);
-  try {
-    static_cast<void>(readMesh(folder / name));
-    return "";
-  } catch (const Error& error) {
-    const std::string prefix = (folder / name).string() + ": ", message = error.what();
-    EXPECT_TRUE(message.starts_with(prefix)) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos);
-    return message.substr(prefix.size());
-  }
-}
-
-template <typename... Values>
-std::string bytes(Values... values) {
-  std::string result;
-  (result.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...);
-  return result;
-}
 
 std::string swapped(std::string number) { return {number.rbegin(), number.rend()}; }
 
@@ -269,12 +241,13 @@ TEST(ReadMesh, DamagedPlyIsAnError) {
   const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
   EXPECT_EQ(errorOf("a.ply", "pl\n"), "not a PLY file");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices), "a PLY header without end_header");
-  EXPECT_EQ(errorOf("a.ply", "ply\nformat text 1.0\n"), "line 2: malformed format");
+  EXPECT_EQ(errorOf("a.ply", "ply\nformat text 1.0\n"), "line 2: malformed format \"format text 1.0\"");
   EXPECT_EQ(errorOf("a.ply", "ply\n" + kPlyVertices + end + vertices), "a PLY header without format");
   EXPECT_EQ(errorOf("a.ply", head + "property float x\n" + end),
-            "line 3: malformed property: it belongs to no element");
-  EXPECT_EQ(errorOf("a.ply", head + "element vertex x\n" + end), "line 3: malformed element");
-  EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty vec3 x\n" + end + "1\n"), "line 4: malformed property");
+            "line 3: malformed property, which belongs to no element: \"property float x\"");
+  EXPECT_EQ(errorOf("a.ply", head + "element vertex x\n" + end), "line 3: malformed element \"element vertex x\"");
+  EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty vec3 x\n" + end + "1\n"),
+            "line 4: malformed property \"property vec3 x\"");
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 1\nproperty float x\n" + end + "1\n"),
             "PLY vertices need x, y and z, each once");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyVertices + end + vertices + vertices),
@@ -286,12 +259,13 @@ TEST(ReadMesh, DamagedPlyIsAnError) {
   EXPECT_EQ(errorOf("a.ply", head + "element vertex 4000000000\n" + end + "1\n"),
             "PLY element vertex has no properties");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 1 3\n"),
-            "face 0 names vertex 3, but there are 3 vertices");
+            "line 13: a face names vertex 3, but there are 3 vertices, numbered from 0");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 1 -1\n"),
-            "face 0 names vertex -1");
-  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "2 0 1\n"), "face 0 has 2 corners");
+            "line 13: a face names vertex -1, but vertices are numbered from 0");
+  EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "2 0 1\n"),
+            "line 13: a face has 2 corners, and needs 3 at least");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 x 1\n"),
-            "line 4 after the header: \"x\" is not a number");
+            "line 13: \"x\" is not a number");
   EXPECT_EQ(errorOf("a.ply", head + kPlyVertices + kPlyFaces + end + vertices + "3 0 1\n"),
             "ends before the last of the elements announced in its header");
 }
@@ -312,20 +286,22 @@ TEST(ReadMesh, CountsThatLieAreErrorsAtOnce) {
 }
 
 TEST(ReadMesh, DamagedTextIsAnErrorWithItsLine) {
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nv 1 0\n"), "line 2: malformed vertex");
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 /1\n"), "line 2: malformed face");
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 0\n"), "line 2: malformed face");
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 -2\n"), "face 0 names vertex -1");
-  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 2\n"), "face 0 names vertex 1, but there are 1 vertices");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nv 1 0\n"), "line 2: malformed vertex \"v 1 0\"");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 /1\n"), "line 2: malformed face \"f 1 1 /1\"");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 0\n"), "line 2: malformed face \"f 1 1 0\"");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 -2\n"), "line 2: a face names number -2, but only 1 come before it");
+  EXPECT_EQ(errorOf("a.obj", "v 0 0 0\nf 1 1 2\n"),
+            "line 2: a face names vertex 2, but there are 1 vertices, numbered from 1");
   EXPECT_EQ(errorOf("a.off", "OFF\n2 0 0\n0 0 0\n"), "ends after line 3; 2 vertices and 0 faces were announced");
-  EXPECT_EQ(errorOf("a.off", "OFF\n1 1 0\n0 0 0\n3 0 0\n"), "line 4: malformed face");
-  EXPECT_EQ(errorOf("a.off", "OFF\n1 0 0\n0 0 x\n"), "line 3: malformed vertex");
+  EXPECT_EQ(errorOf("a.off", "OFF\n1 1 0\n0 0 0\n3 0 0\n"), "line 4: malformed face \"3 0 0\"");
+  EXPECT_EQ(errorOf("a.off", "OFF\n1 0 0\n0 0 x\n"), "line 3: malformed vertex \"0 0 x\"");
   EXPECT_EQ(errorOf("a.off", "OFF\n1 0 0\n0 0 0\n3 0 0 0\n"),
-            "line 4: malformed end: more lines than vertices and faces");
-  EXPECT_NE(errorOf("a.off", "4OFF\n1 0 0\n0 0 0 0\n"), "");
-  EXPECT_NE(errorOf("a.off", "OFF BINARY\n1 0 0\n"), "");
+            "line 4: malformed end: more lines than vertices and faces \"3 0 0 0\"");
+  EXPECT_EQ(errorOf("a.off", "4OFF\n1 0 0\n0 0 0 0\n"), "line 3: malformed homogeneous vertex \"0 0 0 0\"");
+  EXPECT_EQ(errorOf("a.off", "OFF BINARY\n1 0 0\n"), "binary OFF is not read, only OFF as text");
   EXPECT_EQ(errorOf("a.stl", textStl("vertex 0 0 0\nvertex 1 0 0\n")), "line 7: a facet that is not a triangle");
-  EXPECT_EQ(errorOf("a.stl", textStl("vertex 0 0 0\nvertex 1 0 0\nvertex 1 0\n")), "line 6: malformed vertex");
+  EXPECT_EQ(errorOf("a.stl", textStl("vertex 0 0 0\nvertex 1 0 0\nvertex 1 0\n")),
+            "line 6: malformed vertex \"vertex 1 0\"");
   EXPECT_EQ(errorOf("a.stl", "solid\nfacet normal 0 0 1\nouter loop\n"), "ends after line 3 without endsolid");
   EXPECT_NE(errorOf("a.stl", "something else"), "");
 }

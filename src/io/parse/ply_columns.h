@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/ply_header.h"
+#include "io/parse/ply_header.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {

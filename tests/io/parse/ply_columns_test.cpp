@@ -1,4 +1,4 @@
-#include "io/mesh/ply_columns.h"
+#include "io/parse/ply_columns.h"
 
 #include <gtest/gtest.h>
 

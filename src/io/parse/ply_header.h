@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "pdc/math/vec3.h"
 
 namespace pdc::detail {
 
@@ -32,10 +36,17 @@ enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  std::string_view body;  ///< The bytes after the header.
+  std::optional<Vec3d> origin;  ///< What a comment says.
+  bool isOwn = false;           ///< Whether a comment says that we wrote it.
+  std::size_t lines = 0;        ///< How many lines the header has.
+  std::string_view body;        ///< The bytes after the header.
 };
 
-/// `bytes` must outlive the result. \throws Error with the line's number
-[[nodiscard]] PlyHeader parsePlyHeader(std::string_view bytes);
+/// Whether the first word is "ply" in either case, and a line of its own.
+[[nodiscard]] bool isPly(std::string_view bytes);
+
+/// Keywords may be in capitals, and so may the names of elements and of coordinates. \param bytes that outlive the
+/// result; where lines end with '\r' alone, these become '\n'. \throws Error with the line's number
+[[nodiscard]] PlyHeader parsePlyHeader(std::span<char> bytes);
 
 }  // namespace pdc::detail

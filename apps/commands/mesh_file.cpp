@@ -1,0 +1,18 @@
+#include "commands/mesh_file.h"
+
+#include "pdc/io/mesh/mesh_reader.h"
+#include "terminal/warning.h"
+
+namespace pdc {
+
+MeshFile readMeshFile(const std::filesystem::path& path, bool quiet) {
+  MeshFile file;
+  const auto warn = [&](const std::string& warning) {
+    file.warnings.push_back(warning);
+    if (!quiet) printWarning(warning);
+  };
+  file.mesh = readMesh(path, {.warn = warn});
+  return file;
+}
+
+}  // namespace pdc

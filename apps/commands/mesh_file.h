@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pdc/mesh/mesh.h"
+
+namespace pdc {
+
+/// A mesh from a file, and what the reader warned of.
+struct MeshFile {
+  Mesh mesh;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a mesh and puts the warnings on standard error, unless `quiet`. \throws Error.
+[[nodiscard]] MeshFile readMeshFile(const std::filesystem::path& path, bool quiet = false);
+
+}  // namespace pdc

@@ -1,0 +1,221 @@
+#include "mesh/ear_clipping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "pdc/math/predicates.h"
+
+namespace pdc::detail {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Half the normal times the area on both sides, by Newell's sum.
+Vec3d newellNormal(std::span<const std::uint32_t> polygon, const Buffer<Vec3f>& positions) {
+  const auto at = [&](std::size_t i) { return vecCast<double>(positions[polygon[i]]); };
+  const Vec3d first = at(0);
+  Vec3d sum{};
+  for (std::size_t i = 2; i < polygon.size(); ++i) sum += cross(at(i - 1) - first, at(i) - first);
+  return sum;
+}
+
+bool isBetween(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
+  const auto [lowX, highX] = std::minmax(a.x, b.x);
+  const auto [lowY, highY] = std::minmax(a.y, b.y);
+  return p != a && p != b && lowX <= p.x && p.x <= highX && lowY <= p.y && p.y <= highY;
+}
+
+}  // namespace
+
+void EarClipper::triangulate(std::span<const std::uint32_t> polygon, const Buffer<Vec3f>& positions, Triangle* out) {
+  mPolygon = polygon;
+  mOut = out;
+  if (!project(polygon, positions) || isFan()) {
+    for (Index k = 2; k < polygon.size(); ++k) put(0, k - 1, k);
+    return;
+  }
+  start();
+  while (mLeft > 3) {
+    clipQueued();
+    if (mLeft > 3) clipUnsafe();
+  }
+  if (mLeft > 0) clipRest();
+}
+
+/// Drops the coordinate along which the polygon looks largest; then it is counter-clockwise. \returns false if that
+/// cannot be said.
+bool EarClipper::project(std::span<const std::uint32_t> polygon, const Buffer<Vec3f>& positions) {
+  const Vec3d normal = newellNormal(polygon, positions);
+  if (!std::isfinite(normal.x) || !std::isfinite(normal.y) || !std::isfinite(normal.z)) return false;
+  int axis = std::abs(normal.y) > std::abs(normal.x) ? 1 : 0;
+  if (std::abs(normal.z) >= std::abs(normal[axis])) axis = 2;
+  int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  if (normal[axis] < 0) std::swap(x, y);
+  mPoints.resize(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3d p = vecCast<double>(positions[polygon[i]]);
+    mPoints[i] = {p[x], p[y]};
+  }
+  return true;
+}
+
+int EarClipper::turn(Index a, Index b, Index c) const {
+  const PlanePoint &p = mPoints[a], &q = mPoints[b], &r = mPoints[c];
+  return orient2d(p.x, p.y, q.x, q.y, r.x, r.y);
+}
+
+/// Whether all triangles from the first corner turn forward, and together by less than a whole turn. Those of repeated
+/// corners have no area in any case.
+bool EarClipper::isFan() const {
+  const auto size = static_cast<Index>(mPoints.size());
+  Index first = 1;
+  while (first + 1 < size && mPoints[first] == mPoints[0]) ++first;
+  bool pastHalf = false;
+  for (Index k = 2; k < size; ++k) {
+    const int forward = turn(0, k - 1, k);
+    const bool repeated = mPoints[k - 1] == mPoints[k] || mPoints[0] == mPoints[k - 1] || mPoints[0] == mPoints[k];
+    if (forward < 0 || (forward == 0 && !repeated)) return false;
+    if (mPoints[0] == mPoints[k]) continue;
+    const int side = turn(0, first, k);
+    if (pastHalf && side >= 0) return false;
+    pastHalf |= side < 0;
+  }
+  return true;
+}
+
+EarClipper::Shape EarClipper::shapeOf(Index i) const {
+  const Index before = mPrevious[i], after = mNext[i];
+  const int t = turn(before, i, after);
+  if (t != 0) return t > 0 ? Shape::kConvex : Shape::kReflex;
+  return isBetween(mPoints[i], mPoints[before], mPoints[after]) ? Shape::kFlat : Shape::kSpike;
+}
+
+void EarClipper::start() {
+  const auto size = static_cast<Index>(mPoints.size());
+  mLeft = size;
+  mCursor = 0;
+  mUnsafeTests = 0;
+  mPrevious.resize(size);
+  mNext.resize(size);
+  mShapes.resize(size);
+  mRemoved.assign(size, 0);
+  mQueued.assign(size, 0);
+  mFirstWaiting.assign(size, kNone);
+  mWaiting.clear();
+  mQueue.clear();
+  mNotConvex.clear();
+  for (Index i = 0; i < size; ++i) {
+    mPrevious[i] = i == 0 ? size - 1 : i - 1;
+    mNext[i] = i + 1 == size ? 0 : i + 1;
+  }
+  for (Index i = 0; i < size; ++i) {
+    mShapes[i] = shapeOf(i);
+    if (mShapes[i] != Shape::kConvex) mNotConvex.push_back(i);
+    enqueue(i);
+  }
+  mGrid.fill(mPoints, mNotConvex);
+}
+
+void EarClipper::enqueue(Index i) {
+  if (mShapes[i] != Shape::kConvex && mShapes[i] != Shape::kSpike) return;
+  if (std::exchange(mQueued[i], std::uint8_t{1}) == 0) mQueue.push_back(i);
+}
+
+/// Ears in the order in which they came, so that all around the polygon triangles grow alike. One that is blocked waits
+/// for the corner that blocks it.
+void EarClipper::clipQueued() {
+  for (std::size_t k = 0; k < mQueue.size() && mLeft > 3; ++k) {
+    const Index i = mQueue[k];
+    mQueued[i] = 0;
+    if (mRemoved[i] != 0 || mShapes[i] == Shape::kReflex || mShapes[i] == Shape::kFlat) continue;
+    const Index by = mShapes[i] == Shape::kConvex ? blocker(i, Test::kClosed) : kNone;
+    if (by == kNone) {
+      clip(i);
+    } else {
+      mWaiting.push_back({i, mFirstWaiting[by]});
+      mFirstWaiting[by] = static_cast<Index>(mWaiting.size() - 1);
+    }
+  }
+  mQueue.clear();
+}
+
+/// Only polygons that meet themselves come here. Takes the next corner with nothing inside its triangle; without one,
+/// or when looking has taken long enough, the next convex one; and if there is none either, all that is left.
+void EarClipper::clipUnsafe() {
+  const std::size_t most = 8 * mPoints.size();
+  Index convex = kNone;
+  Index i = mCursor;
+  for (std::size_t k = 0; k < mLeft; ++k, i = mNext[i]) {
+    ++mUnsafeTests;
+    if (mShapes[i] != Shape::kConvex) continue;
+    if (convex == kNone) convex = i;
+    if (mUnsafeTests > most) break;
+    if (blocker(i, Test::kInside) == kNone) return clip(i);
+  }
+  if (convex == kNone || mUnsafeTests > 2 * most) return clipRest();
+  clip(convex);
+}
+
+void EarClipper::put(Index a, Index b, Index c) { *mOut++ = {mPolygon[a], mPolygon[b], mPolygon[c]}; }
+
+void EarClipper::clip(Index i) {
+  const Index before = mPrevious[i], after = mNext[i];
+  put(before, i, after);
+  mNext[before] = after;
+  mPrevious[after] = before;
+  mRemoved[i] = 1;
+  --mLeft;
+  mCursor = after;
+  wake(i);
+  for (const Index neighbour : {before, after}) {
+    mShapes[neighbour] = shapeOf(neighbour);
+    enqueue(neighbour);
+    if (mShapes[neighbour] == Shape::kConvex) wake(neighbour);
+  }
+}
+
+void EarClipper::clipRest() {
+  for (Index i = mNext[mNext[mCursor]]; i != mCursor; i = mNext[i]) put(mCursor, mPrevious[i], i);
+  mLeft = 0;
+}
+
+/// Those that a corner blocked are looked at again.
+void EarClipper::wake(Index i) {
+  for (Index k = std::exchange(mFirstWaiting[i], kNone); k != kNone; k = mWaiting[k].next)
+    if (mRemoved[mWaiting[k].ear] == 0) enqueue(mWaiting[k].ear);
+}
+
+EarClipper::Index EarClipper::blocker(Index ear, Test test) const {
+  Index found = kNone;
+  mGrid.visitNear(mPoints[mPrevious[ear]], mPoints[ear], mPoints[mNext[ear]], [&](Index i) {
+    if (mRemoved[i] != 0 || mShapes[i] == Shape::kConvex || !isBlocked(ear, i, test)) return false;
+    found = i;
+    return true;
+  });
+  return found;
+}
+
+bool EarClipper::isBlocked(Index ear, Index by, Test test) const {
+  const Index a = mPrevious[ear], c = mNext[ear];
+  if (by == a || by == ear || by == c) return false;
+  const int ab = turn(a, ear, by), bc = turn(ear, c, by), ca = turn(c, a, by);
+  if (test == Test::kInside) return ab > 0 && bc > 0 && ca > 0;
+  if (ab < 0 || bc < 0 || ca < 0) return false;
+  for (const Index corner : {a, ear, c})
+    if (mPoints[by] == mPoints[corner]) return entersAt(corner, ear, by);
+  return true;
+}
+
+/// Whether the polygon, where it comes back to a corner of an ear, goes on into it. Where a hole is joined to the
+/// outline by an edge that is passed twice, it does not.
+bool EarClipper::entersAt(Index corner, Index ear, Index by) const {
+  const Index a = mPrevious[ear], c = mNext[ear];
+  const Index following = corner == a ? ear : corner == ear ? c : a;
+  const Index preceding = corner == a ? c : corner == ear ? a : ear;
+  const auto isInside = [&](Index i) { return turn(corner, following, i) > 0 && turn(corner, i, preceding) > 0; };
+  return isInside(mPrevious[by]) || isInside(mNext[by]);
+}
+
+}  // namespace pdc::detail
