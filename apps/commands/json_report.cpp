@@ -43,6 +43,8 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"median_sigma_n", run.contour.medianSigmaNormal},
           {"normal_noise", run.contour.normalNoise},
           {"crease_patches", run.contour.creasePatches},
+          {"origin", {run.origin.x, run.origin.y, run.origin.z}},
+          {"double_precision", request.doublePrecision},
           {"sigma_grid", request.sigmaGrid ? Json(*request.sigmaGrid) : Json()},
           {"weight_grid", request.weightGrid ? Json(*request.weightGrid) : Json()},
           {"placement", placementName(request.placement)},

@@ -20,6 +20,7 @@ struct MeshRun {
   double valueNoise = 0;  ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
+  Vec3d origin{};  ///< See Mesh::origin.
   double secondsRead = 0, secondsContour = 0, secondsWrite = 0, secondsTotal = 0;
   std::vector<std::string> warnings;
 };

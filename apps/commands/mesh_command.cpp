@@ -104,6 +104,8 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
              run.bytesWritten);
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
+  if (run.origin != Vec3d{} && !request.doublePrecision)
+    fmt::print("coordinates are relative to the origin {}, {}, {}\n", run.origin.x, run.origin.y, run.origin.z);
   if (run.contour.creasePatches > 0)
     fmt::print("{:.2g} % of the vertices on creases\n",
                1e2 * static_cast<double>(run.contour.creasePatches) / static_cast<double>(run.vertices));
@@ -127,12 +129,14 @@ void runMesh(const MeshRequest& request) {
   run.vertices = mesh.positions.size();
   run.quads = mesh.quads.size();
   run.triangles = mesh.triangles.size();
+  run.origin = mesh.origin;
 
   detail::Stopwatch stopwatch;
   {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
-    run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
+    run.bytesWritten =
+        writeMesh(mesh, request.output, {.ascii = request.ascii, .doublePrecision = request.doublePrecision});
   }
   run.secondsWrite = stopwatch.lap();
   run.secondsTotal = total.lap();

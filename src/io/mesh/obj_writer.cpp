@@ -9,6 +9,7 @@
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
+#include "io/mesh/world_positions.h"
 #include "io/parse/origin_text.h"
 
 namespace pdc::detail {
@@ -17,7 +18,8 @@ namespace {
 /// A chunk is about a megabyte of text.
 constexpr std::size_t kItemsPerChunk = 1 << 15;
 
-void writeVectors(const Buffer<Vec3f>& vectors, bool normals, AtomicFile& file) {
+template <typename Real>
+void writeVectors(const Buffer<Vec3<Real>>& vectors, bool normals, AtomicFile& file) {
   writeChunked(file, vectors.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     TextCursor text(out, (end - begin) * 4 * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
@@ -57,11 +59,15 @@ void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
 
 }  // namespace
 
-void writeObj(const Mesh& mesh, AtomicFile& file) {
-  const std::string header = fmt::format("# {}\n{}", kOwnComment, originLine(mesh, "# "));
+void writeObj(const Mesh& mesh, AtomicFile& file, bool world) {
+  const std::string header = fmt::format("# {}\n{}", kOwnComment, world ? "" : originLine(mesh, "# "));
   const bool normals = !mesh.normals.empty();
   file.write(header.data(), header.size());
-  writeVectors(mesh.positions, false, file);
+  if (world) {
+    writeVectors(worldPositions(mesh), false, file);
+  } else {
+    writeVectors(mesh.positions, false, file);
+  }
   writeVectors(mesh.normals, true, file);
   writeFaces(mesh.quads, normals, file);
   writeFaces(mesh.triangles, normals, file);

@@ -15,6 +15,7 @@
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
+#include "io/mesh/world_positions.h"
 #include "io/parse/origin_text.h"
 #include "io/parse/ply_columns.h"
 #include "mesh/faces.h"
@@ -35,16 +36,18 @@ bool areCountsBytes(const Polygons& polygons) {
   return true;
 }
 
-std::string header(const Mesh& mesh, bool ascii) {
+std::string header(const Mesh& mesh, const MeshWriteOptions& options) {
   std::string properties;
   for (const VertexProperty& property : mesh.properties)
     for (const std::string& name : plyColumnNames(property))
       properties += fmt::format("property {} {}\n", plyTypeName(plyType(property)), name);
+  const char* const real = plyTypeName(options.doublePrecision ? PlyType::kFloat64 : PlyType::kFloat32);
   return fmt::format(
       "ply\nformat {} 1.0\ncomment {}\n{}"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}{}"
+      "element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n{}{}"
       "element face {}\nproperty list {} {} vertex_indices\nend_header\n",
-      ascii ? "ascii" : "binary_little_endian", kOwnComment, originLine(mesh, "comment "), mesh.positions.size(),
+      options.ascii ? "ascii" : "binary_little_endian", kOwnComment,
+      options.doublePrecision ? "" : originLine(mesh, "comment "), mesh.positions.size(), real, real, real,
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties,
       faceCount(mesh), areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(mesh.positions.size()));
 }
@@ -55,12 +58,17 @@ struct VertexBytes {
   std::size_t stride;
 };
 
-std::vector<VertexBytes> vertexBytes(const Mesh& mesh) {
+/// \param world coordinates in place of positions, unless it is empty.
+std::vector<VertexBytes> vertexBytes(const Mesh& mesh, const Buffer<Vec3d>& world) {
   std::vector<VertexBytes> arrays;
   const auto add = [&](const auto& values, std::size_t perVertex) {
     arrays.push_back({reinterpret_cast<const char*>(values.data()), perVertex * sizeof(values[0])});
   };
-  add(mesh.positions, 1);
+  if (world.empty()) {
+    add(mesh.positions, 1);
+  } else {
+    add(world, 1);
+  }
   if (!mesh.normals.empty()) add(mesh.normals, 1);
   for (const VertexProperty& property : mesh.properties)
     std::visit([&](const auto& values) { add(values, static_cast<std::size_t>(property.components)); },
@@ -87,10 +95,10 @@ void scatter(const VertexBytes& from, std::size_t begin, std::size_t end, char* 
   }
 }
 
-void writeVertices(const Mesh& mesh, AtomicFile& file) {
-  const std::vector<VertexBytes> arrays = vertexBytes(mesh);
+void writeVertices(const Mesh& mesh, const Buffer<Vec3d>& world, AtomicFile& file) {
+  const std::vector<VertexBytes> arrays = vertexBytes(mesh, world);
   if (arrays.size() == 1) {
-    file.write(mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
+    file.write(arrays[0].data, mesh.positions.size() * arrays[0].stride);
     return;
   }
   std::size_t step = 0;
@@ -131,7 +139,8 @@ void writeAllFaces(const Mesh& mesh, AtomicFile& file) {
   writeFaces<Count>(mesh.polygons, file);
 }
 
-void putVector(TextCursor& text, const Vec3f& v) {
+template <typename Real>
+void putVector(TextCursor& text, const Vec3<Real>& v) {
   text.put(v.x);
   text.put(' ');
   text.put(v.y);
@@ -151,13 +160,17 @@ void putProperty(TextCursor& text, const VertexProperty& property, std::size_t i
       property.values);
 }
 
-void writeVerticesAscii(const Mesh& mesh, AtomicFile& file) {
+void writeVerticesAscii(const Mesh& mesh, const Buffer<Vec3d>& world, AtomicFile& file) {
   std::size_t numbers = 6;
   for (const VertexProperty& property : mesh.properties) numbers += static_cast<std::size_t>(property.components);
   writeChunked(file, mesh.positions.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     TextCursor text(out, (end - begin) * numbers * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
-      putVector(text, mesh.positions[i]);
+      if (world.empty()) {
+        putVector(text, mesh.positions[i]);
+      } else {
+        putVector(text, world[i]);
+      }
       if (!mesh.normals.empty()) {
         text.put(' ');
         putVector(text, mesh.normals[i]);
@@ -192,18 +205,19 @@ const char* plyIndexType(std::size_t vertices) {
   return vertices <= kIntIndices ? "int" : "uint";
 }
 
-void writePly(const Mesh& mesh, AtomicFile& file, bool ascii) {
+void writePly(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options) {
   checkPlyNames(mesh);
-  const std::string text = header(mesh, ascii);
+  const Buffer<Vec3d> world = options.doublePrecision ? worldPositions(mesh) : Buffer<Vec3d>();
+  const std::string text = header(mesh, options);
   file.write(text.data(), text.size());
-  if (ascii) {
-    writeVerticesAscii(mesh, file);
+  if (options.ascii) {
+    writeVerticesAscii(mesh, world, file);
     writeFacesAscii(mesh.quads, file);
     writeFacesAscii(mesh.triangles, file);
     writeFacesAscii(mesh.polygons, file);
     return;
   }
-  writeVertices(mesh, file);
+  writeVertices(mesh, world, file);
   if (areCountsBytes(mesh.polygons)) {
     writeAllFaces<std::uint8_t>(mesh, file);
   } else {

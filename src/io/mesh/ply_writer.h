@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
@@ -13,6 +14,6 @@ class AtomicFile;
 
 /// Binary little-endian or text; quads come before triangles, and those before polygons. \throws Error;
 /// std::invalid_argument for names that checkPlyNames refuses.
-void writePly(const Mesh& mesh, AtomicFile& file, bool ascii);
+void writePly(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options);
 
 }  // namespace pdc::detail

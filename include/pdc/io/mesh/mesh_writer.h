@@ -9,6 +9,9 @@ namespace pdc {
 
 struct MeshWriteOptions {
   bool ascii = false;  ///< .ply and .stl as text; .obj and .off always are text.
+  /// .ply and .obj hold world coordinates, the sums of the mesh's origin and its positions, in double precision,
+  /// instead of the positions. Sums are rounded; those of a mesh made with ContourOptions::exactSums are exact.
+  bool doublePrecision = false;
 };
 
 /// Throws Error unless `path` can take a mesh: a suffix that is known and a folder that exists and can be written to.
@@ -19,13 +22,15 @@ void checkMeshPath(const std::filesystem::path& path);
 /// its properties in their order and types, vectors as NAME_x NAME_y NAME_z NAME_w; int or, above 2^31 vertices, uint
 /// indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off through OpenMesh.
 /// Quads come before triangles, and those before polygons; in .stl all are triangles. Only .ply holds properties; the
-/// others leave them out.
+/// others leave them out. An origin that is not zero stands in the file as the text "origin X Y Z", where readMesh()
+/// finds it: a comment, or the name of a .stl's solid.
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed and whatever stood under the name stays.
 /// \returns bytes written. \throws Error if the file cannot be written or a face names a vertex that does not exist;
-/// std::invalid_argument for a mesh whose arrays do not fit together, and for a .ply whose properties' names are empty,
-/// hold blanks or control characters, or come twice, x, y, z, nx, ny and nz included.
+/// std::invalid_argument for a mesh whose arrays do not fit together, double precision in other files than .ply and
+/// .obj, and for a .ply whose properties' names are empty, hold blanks or control characters, or come twice, x, y, z,
+/// nx, ny and nz included.
 std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options = {});
 
 }  // namespace pdc
