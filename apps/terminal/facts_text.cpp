@@ -3,11 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pdc {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Six digits, and three behind the point however far away it is.
+std::string coordinateText(double value) {
+  constexpr double kSixDigits = 1e6;
+  return fmt::format("{:.{}g}", value,
+                     std::abs(value) * 1e3 < kSixDigits ? 6 : 4 + static_cast<int>(std::log10(std::abs(value))));
+}
 
 std::string text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -17,7 +25,7 @@ std::string text(const Json& value) {
   std::string joined;
   for (const Json& part : value) {
     if (!joined.empty()) joined += ' ';
-    joined += text(part);
+    joined += part.is_number_float() ? coordinateText(part.get<double>()) : text(part);
   }
   return joined;
 }

@@ -66,21 +66,13 @@ int EarClipper::turn(Index a, Index b, Index c) const {
   return orient2d(p.x, p.y, q.x, q.y, r.x, r.y);
 }
 
-/// Whether all triangles from the first corner turn forward, and together by less than a whole turn. Those of repeated
-/// corners have no area in any case.
+/// Whether all triangles from the first corner turn forward; those of repeated corners have no area in any case. Such
+/// triangles overlap only where the polygon goes around that corner more than once, and then it meets itself.
 bool EarClipper::isFan() const {
-  const auto size = static_cast<Index>(mPoints.size());
-  Index first = 1;
-  while (first + 1 < size && mPoints[first] == mPoints[0]) ++first;
-  bool pastHalf = false;
-  for (Index k = 2; k < size; ++k) {
+  for (Index k = 2; k < mPoints.size(); ++k) {
     const int forward = turn(0, k - 1, k);
     const bool repeated = mPoints[k - 1] == mPoints[k] || mPoints[0] == mPoints[k - 1] || mPoints[0] == mPoints[k];
     if (forward < 0 || (forward == 0 && !repeated)) return false;
-    if (mPoints[0] == mPoints[k]) continue;
-    const int side = turn(0, first, k);
-    if (pastHalf && side >= 0) return false;
-    pastHalf |= side < 0;
   }
   return true;
 }
@@ -199,23 +191,12 @@ EarClipper::Index EarClipper::blocker(Index ear, Test test) const {
 
 bool EarClipper::isBlocked(Index ear, Index by, Test test) const {
   const Index a = mPrevious[ear], c = mNext[ear];
-  if (by == a || by == ear || by == c) return false;
-  const int ab = turn(a, ear, by), bc = turn(ear, c, by), ca = turn(c, a, by);
-  if (test == Test::kInside) return ab > 0 && bc > 0 && ca > 0;
-  if (ab < 0 || bc < 0 || ca < 0) return false;
+  // Where the polygon comes back to a corner of the ear, as where a hole is joined to the outline by an edge that is
+  // passed twice, it enters the ear only with another corner inside.
   for (const Index corner : {a, ear, c})
-    if (mPoints[by] == mPoints[corner]) return entersAt(corner, ear, by);
-  return true;
-}
-
-/// Whether the polygon, where it comes back to a corner of an ear, goes on into it. Where a hole is joined to the
-/// outline by an edge that is passed twice, it does not.
-bool EarClipper::entersAt(Index corner, Index ear, Index by) const {
-  const Index a = mPrevious[ear], c = mNext[ear];
-  const Index following = corner == a ? ear : corner == ear ? c : a;
-  const Index preceding = corner == a ? c : corner == ear ? a : ear;
-  const auto isInside = [&](Index i) { return turn(corner, following, i) > 0 && turn(corner, i, preceding) > 0; };
-  return isInside(mPrevious[by]) || isInside(mNext[by]);
+    if (mPoints[by] == mPoints[corner]) return false;
+  const int ab = turn(a, ear, by), bc = turn(ear, c, by), ca = turn(c, a, by);
+  return test == Test::kInside ? ab > 0 && bc > 0 && ca > 0 : ab >= 0 && bc >= 0 && ca >= 0;
 }
 
 }  // namespace pdc::detail

@@ -48,7 +48,6 @@ class EarClipper {
   /// A corner that keeps this one from being an ear; kNone if there is none.
   [[nodiscard]] Index blocker(Index ear, Test test) const;
   [[nodiscard]] bool isBlocked(Index ear, Index by, Test test) const;
-  [[nodiscard]] bool entersAt(Index corner, Index ear, Index by) const;
 
   std::span<const std::uint32_t> mPolygon;
   Triangle* mOut = nullptr;

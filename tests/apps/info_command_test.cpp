@@ -70,6 +70,8 @@ TEST(InfoCommand, SaysTheOriginOfAMeshFarAway) {
   EXPECT_NEAR(facts["bounds_hi"][1], 4649776.2, 1e-8);
   EXPECT_NEAR(facts["area"], 0.005, 1e-9);
   EXPECT_EQ(facts["warnings"], Json::array());
+  const Outcome text = runPdc({"info", file});
+  EXPECT_NE(text.out.find("\nbounds hi              500000.2 4649776.2 0\n"), std::string::npos) << text.out;
   const Json near = Json::parse(runPdc({"info", folder.write("near.obj", "v 0 0 0\n"), "--json", "-"}).out);
   EXPECT_FALSE(near.contains("origin"));
 }

@@ -116,6 +116,22 @@ TEST(EarClipping, TilesRaggedPolygonsOfAllSizes) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) expectTiled(ragged(5 + seed, seed));
 }
 
+TEST(EarClipping, TilesSkylinesWithManyCornersOnOneLine) {
+  std::mt19937 random(3);
+  for (int width = 2; width < 80; ++width) {
+    Buffer<Vec3f> positions;
+    for (int x = 0; x <= width; ++x) positions.push_back({static_cast<float>(x), 0, 0});
+    float before = 0;
+    for (int x = width; x > 0; --x) {
+      const auto height = static_cast<float>(1 + random() % 4);
+      if (height != before) positions.push_back({static_cast<float>(x), height, 0});
+      positions.push_back({static_cast<float>(x - 1), height, 0});
+      before = height;
+    }
+    expectTiled(positions);
+  }
+}
+
 TEST(EarClipping, LooksAtAPolygonAlongItsNormal) {
   // An L in many planes; its area is that of the plane's image.
   for (const Vec3d& u : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{1, 2, -2}, Vec3d{-3, 1, 1}})
@@ -135,6 +151,30 @@ TEST(EarClipping, AHoleJoinedByAnEdgePassedTwiceStaysOpen) {
   const MeshReport report = analyze(mesh);
   EXPECT_EQ(report.area, 32);
   EXPECT_EQ(selfIntersections(mesh).degenerateTriangles, 0u);
+}
+
+TEST(EarClipping, PolygonsThatTouchThemselvesAreTiled) {
+  const auto areaOf = [](const Buffer<Vec3f>& positions) { return analyze(triangulated(positions)).area; };
+  // Two squares that share a corner; a square with an antenna; a plate with two holes.
+  EXPECT_EQ(areaOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {1, 1, 0}, {0, 1, 0}}), 2);
+  EXPECT_EQ(areaOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {3, 3, 0}, {1, 1, 0}, {0, 1, 0}}), 1);
+  EXPECT_EQ(areaOf({{0, 0, 0},
+                    {9, 0, 0},
+                    {9, 5, 0},
+                    {7, 3, 0},
+                    {7, 2, 0},
+                    {6, 2, 0},
+                    {6, 3, 0},
+                    {7, 3, 0},
+                    {9, 5, 0},
+                    {0, 5, 0},
+                    {1, 3, 0},
+                    {2, 3, 0},
+                    {2, 2, 0},
+                    {1, 2, 0},
+                    {1, 3, 0},
+                    {0, 5, 0}}),
+            43);
 }
 
 TEST(EarClipping, RepeatedCornersMakeTrianglesWithoutAreaOnly) {

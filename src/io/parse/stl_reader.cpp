@@ -29,6 +29,11 @@ std::size_t announcedFacets(std::string_view bytes) {
   return facets;
 }
 
+/// A text has no zeros; a title may have none either, but the count of facets after it has, up to 16 million.
+bool hasBinaryTitle(std::string_view bytes) {
+  return bytes.substr(0, kHeaderBytes).find('\0') != std::string_view::npos;
+}
+
 std::size_t binarySize(std::string_view bytes) { return kHeaderBytes + announcedFacets(bytes) * kFacetBytes; }
 
 /// Three corners per facet, after its normal.
@@ -135,8 +140,7 @@ bool isExactBinaryStl(std::string_view bytes) {
 bool isTextStl(std::string_view bytes) {
   constexpr std::size_t kLooked = 8192;
   std::string head(bytes.substr(0, kLooked));
-  // A binary file may begin with "solid" too, but its facets hold zeros.
-  if (head.find('\0') != std::string::npos) return false;
+  if (hasBinaryTitle(bytes)) return false;
   endLinesWithNewlines(head);
   TextScanner scanner(head, '\0');
   if (!scanner.nextLine() || lowerCase(scanner.word()) != "solid") return false;
@@ -154,9 +158,7 @@ ParsedMesh readStl(std::span<char> bytes, const Vec3d& shift) {
     endLinesWithNewlines(bytes);
     return TextReader(view, shift).read();
   }
-  constexpr std::size_t kLooked = 512;
-  if (view.substr(0, kLooked).find('\0') == std::string_view::npos)
-    throw Error("not an STL file: a text without lines that begin with solid and facet");
+  if (!hasBinaryTitle(view)) throw Error("not an STL file: a text without lines that begin with solid and facet");
   if (view.size() < kHeaderBytes) throw Error(fmt::format("{} bytes are too few for an STL file", view.size()));
   if (view.size() > binarySize(view) && announcedFacets(view) > 0) return readBinary(view, shift);
   throw Error(fmt::format("{} facets make {} bytes, but the file has {}", announcedFacets(view), binarySize(view),

@@ -41,6 +41,13 @@ TEST(ReadStl, WhatIsNotOfAnStlTextIsWarnedOf) {
             std::vector<std::string>{"2 lines are not of an STL file and not read; the first is line 2"});
 }
 
+TEST(ReadStl, BytesAfterATextAreWarnedOf) {
+  const std::string file = "solid a\n" + kFacet + "endsolid a\n%%\n" + std::string(3, '\0');
+  EXPECT_EQ(readText("a.stl", file).triangles, kOne);
+  EXPECT_EQ(warningsOf("a.stl", file),
+            std::vector<std::string>{"1 lines are not of an STL file and not read; the first is line 10"});
+}
+
 TEST(ReadStl, TextThatEndsEarlyIsAnError) {
   EXPECT_EQ(errorOf("a.stl", "solid a\n" + kFacet), "ends after line 8 without endsolid");
   EXPECT_EQ(errorOf("a.stl", "solid a\n" + kFacet + "endsolid\n" + kFacet), "ends after line 16 without endsolid");
