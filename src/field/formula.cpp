@@ -11,6 +11,7 @@
 #include <string>
 
 #include "field/arguments.h"
+#include "field/boundary.h"
 #include "field/central_differences.h"
 #include "field/interval_arithmetic.h"
 #include "pdc/error.h"
@@ -90,7 +91,8 @@ class FormulaField final : public Field {
 
   void values(PointSpan points, double* values) const override {
     Evaluator& evaluate = mEvaluators.local();
-    for (std::size_t i = 0; i < points.size; ++i) values[i] = evaluate(points.x[i], points.y[i], points.z[i]);
+    for (std::size_t i = 0; i < points.size; ++i)
+      values[i] = detail::open(evaluate(points.x[i], points.y[i], points.z[i]));
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {

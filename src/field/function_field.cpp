@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "field/arguments.h"
+#include "field/boundary.h"
 #include "field/central_differences.h"
 #include "field/interval_arithmetic.h"
 
@@ -17,7 +18,8 @@ class FunctionField final : public Field {
   explicit FunctionField(FunctionFieldOptions options) : mOptions(std::move(options)) {}
 
   void values(PointSpan points, double* values) const override {
-    for (std::size_t i = 0; i < points.size; ++i) values[i] = mOptions.value({points.x[i], points.y[i], points.z[i]});
+    for (std::size_t i = 0; i < points.size; ++i)
+      values[i] = detail::open(mOptions.value({points.x[i], points.y[i], points.z[i]}));
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "field/arguments.h"
+#include "field/boundary.h"
 #include "field/image_box.h"
 #include "field/interval_arithmetic.h"
 #include "field/trilinear_cell.h"
@@ -70,7 +71,7 @@ class GridField final : public Field {
   void values(PointSpan points, double* values) const override {
     const Accessor accessor(mGrid->tree());
     for (std::size_t i = 0; i < points.size; ++i)
-      values[i] = mSign * (cellAt({points.x[i], points.y[i], points.z[i]}, accessor).value() - mIso);
+      values[i] = value(cellAt({points.x[i], points.y[i], points.z[i]}, accessor));
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
@@ -79,7 +80,7 @@ class GridField final : public Field {
     for (std::size_t i = 0; i < points.size; ++i) {
       const TrilinearCell cell = cellAt({points.x[i], points.y[i], points.z[i]}, accessor);
       const Vec3d g = pullBack * cell.gradient();
-      values[i] = mSign * (cell.value() - mIso);
+      values[i] = value(cell);
       gradients.x[i] = g.x;
       gradients.y[i] = g.y;
       gradients.z[i] = g.z;
@@ -102,6 +103,8 @@ class GridField final : public Field {
 
   /// As many voxels per axis as a box of 8³ cells touches, wherever it lies on the lattice.
   static constexpr int kScanVoxels = 10;
+
+  [[nodiscard]] double value(const TrilinearCell& cell) const { return detail::open(mSign * (cell.value() - mIso)); }
 
   [[nodiscard]] TrilinearCell cellAt(const Vec3d& world, const Accessor& accessor) const {
     const Vec3d p = mToIndex.linear * (world - mToIndex.origin);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "field/boundary.h"
 #include "math/lane_loops.h"
 #include "pdc/field/field.h"
 
@@ -15,7 +16,7 @@ struct ValueGradient {
 };
 
 /// A field written for one point: plain numbers and four functions. gradient() gives the same value as value(), bit for
-/// bit.
+/// bit. A shape that holds its boundary also has size(), the largest number that places it.
 template <typename Shape>
 concept PointShape = std::is_trivially_copyable_v<Shape> &&
     requires(const Shape& shape, const Vec3d& p, const Box& box) {
@@ -29,19 +30,21 @@ concept PointShape = std::is_trivially_copyable_v<Shape> &&
 template <PointShape Shape>
 class PointwiseField final : public Field {
  public:
-  explicit PointwiseField(const Shape& shape) : mShape(shape) {}
+  explicit PointwiseField(const Shape& shape) : mShape(shape) {
+    if constexpr (kClosed) mTolerance = kBoundary * shape.size();
+  }
 
   void values(PointSpan points, double* values) const override {
     // The shape is copied, because `values` might point to mShape as far as the compiler knows.
-    forEachPoint(points.size, [=, shape = mShape](std::size_t i) {
-      values[i] = shape.value({points.x[i], points.y[i], points.z[i]});
+    forEachPoint(points.size, [=, shape = mShape, tolerance = mTolerance](std::size_t i) {
+      values[i] = onBoundary(shape.value({points.x[i], points.y[i], points.z[i]}), tolerance);
     });
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    forEachPoint(points.size, [=, shape = mShape](std::size_t i) {
+    forEachPoint(points.size, [=, shape = mShape, tolerance = mTolerance](std::size_t i) {
       const ValueGradient f = shape.gradient({points.x[i], points.y[i], points.z[i]});
-      values[i] = f.value;
+      values[i] = onBoundary(f.value, tolerance);
       gradients.x[i] = f.gradient.x;
       gradients.y[i] = f.gradient.y;
       gradients.z[i] = f.gradient.z;
@@ -52,6 +55,10 @@ class PointwiseField final : public Field {
   [[nodiscard]] double lipschitz() const override { return mShape.lipschitz(); }
 
  private:
+  static constexpr bool kClosed = requires(const Shape& shape) { shape.size(); };
+
+  static double onBoundary(double value, double tolerance) { return kClosed ? closed(value, tolerance) : open(value); }
+
   /// Calls f(i) for i = 0 … size − 1, in batches as long as they are full.
   template <typename F>
   void forEachPoint(std::size_t size, const F& f) const {
@@ -63,6 +70,7 @@ class PointwiseField final : public Field {
   }
 
   Shape mShape;
+  double mTolerance = 0;
   SimdLevel mLevel = bestSimdLevel();
 };
 

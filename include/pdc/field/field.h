@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -25,7 +26,13 @@ struct GradientSpan {
   double* z;
 };
 
-/// A scalar function of space; negative inside. Immutable and safe to evaluate from many threads at once.
+/// Whether a value of a field is inside: below zero, or -0.0. NaN and +0.0 are outside.
+[[nodiscard]] inline bool isInside(double value) { return value <= 0 && std::signbit(value); }
+
+/// A scalar function of space; negative inside. The sign of a zero says whether the boundary belongs to the solid: it
+/// does for primitives, which are -0.0 there, does not for their complements, and operators pass it on, so that solids
+/// that touch unite without a gap, and a cut flush with a face leaves nothing of it. Formulas, functions, grids and
+/// noise are +0.0 wherever they are zero. Immutable and safe to evaluate from many threads at once.
 ///
 /// Work is done in batches, so that the cost of a virtual call is shared and the loops inside vectorise. The result for
 /// a point must not depend on the other points of its batch: neighbouring blocks evaluate shared lattice points

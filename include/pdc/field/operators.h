@@ -16,8 +16,9 @@
 /// never overestimate the distance, but may underestimate it.
 namespace pdc {
 
-/// Union: min. Intersection: max. Gradients are those of the active operand, the first of equals. Where an operand is
-/// NaN it counts as outside: the union takes the others, the intersection is NaN.
+/// Union: min. Intersection: max. -0.0 is less than +0.0; see isInside(). Gradients are those of the active operand,
+/// the first of equals. Where an operand is NaN it counts as outside: the union takes the others, the intersection is
+/// NaN.
 FieldPtr unite(std::vector<FieldPtr> operands);
 FieldPtr intersect(std::vector<FieldPtr> operands);
 /// The first operand without all the others: max(a, -b, -c, …). Where b is NaN nothing is taken away; where a is NaN
@@ -34,9 +35,11 @@ FieldPtr smoothSubtract(std::vector<FieldPtr> operands, double radius);
 
 /// -f: swaps inside and outside.
 FieldPtr complement(FieldPtr field);
-/// f - distance: grows (or with a negative distance shrinks) the solid by that length if f is a distance.
+/// f - distance: grows (or with a negative distance shrinks) the solid by that length if f is a distance. The new solid
+/// holds its boundary.
 FieldPtr offset(FieldPtr field, double distance);
-/// |f| - thickness / 2: the skin about the zero set, `thickness` wide if f is a distance. thickness > 0.
+/// |f| - thickness / 2: the skin about the zero set, `thickness` wide if f is a distance. It holds its boundary.
+/// thickness > 0.
 FieldPtr shell(FieldPtr field, double thickness);
 
 /// f(p - by). Keeps distances; translations, rotations and scales that follow each other are merged into one map.

@@ -2,7 +2,8 @@
 
 #include "pdc/field/field.h"
 
-/// Implicit shapes in world units: negative inside, exact gradients. Unless said otherwise the value is the exact
+/// Implicit shapes in world units: negative inside, -0.0 on the boundary, up to the rounding of numbers as large as the
+/// shape's (see isInside()), exact gradients. Unless said otherwise the value is the exact
 /// signed distance and the Lipschitz constant is 1. Where a distance has no gradient, as on a solid's axis, there is a
 /// finite one nevertheless.
 ///
@@ -42,7 +43,7 @@ FieldPtr ellipsoid(const Vec3d& center, const Vec3d& semiAxes);
 /// Gyroid sheet: |sin x cos y + sin y cos z + sin z cos x| < thickness with x, y, z scaled by 2π/period; the sum lies
 /// in
 /// [-1.5, 1.5]. thickness 0 takes the solid where the sum is negative. The value is not a distance, but scaled so that
-/// its slope is at most 1.
+/// its slope is at most 1. On the boundary it is +0.0.
 FieldPtr gyroid(double period, double thickness);
 
 }  // namespace pdc

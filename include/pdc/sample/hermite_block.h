@@ -47,7 +47,8 @@ struct CellMask {
 
 /// Which of a block's 9×9×9 lattice points are inside, and which of its cells take part.
 struct BlockSigns {
-  /// Row 9x + y holds the points (x, y, 0..8) in bits 0..8. A set bit is inside: value < iso, strictly.
+  /// Row 9x + y holds the points (x, y, 0..8) in bits 0..8. A set bit is inside: value < iso. Of points
+  /// on the isovalue the source decides.
   std::array<std::uint16_t, kBlockPoints * kBlockPoints> row{};
   /// Cells that take part in the surface: all of them in closed mode, those with eight active corners in open mode.
   CellMask cells = CellMask::all();

@@ -11,19 +11,26 @@
 namespace pdc {
 namespace {
 
+/// Whether both are zero and only b is -0.0: by its sign a zero says on which side of its boundary a solid is.
+bool isLowerZero(double b, double a) { return a == 0 && b == 0 && std::signbit(b) && !std::signbit(a); }
+
 /// Each rule says which of two values is the result, whether the fillet adds to it or takes away, and the sign of
 /// operands after the first. NaN counts as outside of the operand that has it.
 struct Unite {
   static constexpr double kBulge = -1, kSign = 1;
-  static bool takesOther(double value, double other) { return other < value || std::isnan(value); }
+  static bool takesOther(double value, double other) {
+    return other < value || std::isnan(value) || isLowerZero(other, value);
+  }
 };
 struct Intersect {
   static constexpr double kBulge = 1, kSign = 1;
-  static bool takesOther(double value, double other) { return other > value || std::isnan(other); }
+  static bool takesOther(double value, double other) {
+    return other > value || std::isnan(other) || isLowerZero(value, other);
+  }
 };
 struct Subtract {
   static constexpr double kBulge = 1, kSign = -1;
-  static bool takesOther(double value, double other) { return other > value; }
+  static bool takesOther(double value, double other) { return other > value || isLowerZero(value, other); }
 };
 
 /// Folds the operands with min or max, rounded off where two values differ by less than the radius k:
@@ -86,7 +93,9 @@ class BooleanField final : public Field {
     // In this order of arguments max() makes NaN 0.
     const double fillet = std::max(0.0, mRadius - std::abs(value - other));
     const double weight = fillet * mHalfInverse;
-    return {(takesOther ? other : value) + Rule::kBulge * 0.5 * fillet * weight, takesOther, weight};
+    const double sharp = takesOther ? other : value;
+    // Adding nothing would turn -0.0 into +0.0.
+    return {fillet > 0 ? sharp + Rule::kBulge * 0.5 * fillet * weight : sharp, takesOther, weight};
   }
 
   /// A weighted mean, but where the weight is zero even NaN of the passive operand leaves no trace.

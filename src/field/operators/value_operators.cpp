@@ -3,13 +3,15 @@
 #include <utility>
 
 #include "field/arguments.h"
+#include "field/boundary.h"
 #include "field/interval_arithmetic.h"
 #include "pdc/field/operators.h"
 
 namespace pdc {
 namespace {
 
-/// Each operation maps a value with slope ±1, and rounds monotonically, so that it maps ranges without slack.
+/// Each operation maps a value with slope ±1, and rounds monotonically, so that it maps ranges without slack but for
+/// what closed() takes for zero.
 struct Complement {
   [[nodiscard]] double map(double v) const { return -v; }
   [[nodiscard]] double slope(double) const { return -1; }
@@ -19,17 +21,22 @@ struct Complement {
 struct Offset {
   double distance;
 
-  [[nodiscard]] double map(double v) const { return v - distance; }
+  [[nodiscard]] double tolerance() const { return detail::kBoundary * std::abs(distance); }
+  [[nodiscard]] double map(double v) const { return detail::closed(v - distance, tolerance()); }
   [[nodiscard]] double slope(double) const { return 1; }
-  [[nodiscard]] Interval map(Interval range) const { return {range.lo - distance, range.hi - distance}; }
+  [[nodiscard]] Interval map(Interval range) const { return {range.lo - distance - tolerance(), range.hi - distance}; }
 };
 
 struct Shell {
   double halfThickness;
 
-  [[nodiscard]] double map(double v) const { return std::abs(v) - halfThickness; }
+  [[nodiscard]] double tolerance() const { return detail::kBoundary * halfThickness; }
+  [[nodiscard]] double map(double v) const { return detail::closed(std::abs(v) - halfThickness, tolerance()); }
   [[nodiscard]] double slope(double v) const { return v < 0 ? -1 : 1; }
-  [[nodiscard]] Interval map(Interval range) const { return detail::absolute(range) + -halfThickness; }
+  [[nodiscard]] Interval map(Interval range) const {
+    const Interval away = detail::absolute(range);
+    return {away.lo - halfThickness - tolerance(), away.hi - halfThickness};
+  }
 };
 
 template <typename Operation>
@@ -73,6 +80,7 @@ FieldPtr complement(FieldPtr field) {
 FieldPtr offset(FieldPtr field, double distance) {
   detail::requireField("offset operand", field);
   detail::requireFinite("offset distance", distance);
+  if (distance == 0) return field;
   return std::make_shared<ValueField<Offset>>(std::move(field), Offset{distance});
 }
 

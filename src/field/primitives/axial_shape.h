@@ -39,7 +39,7 @@ struct AxialShape {
   }
 
   [[nodiscard]] Interval bound(const Box& box) const {
-    const double magnitude = largestEntry(origin) + largestEntry(box) + profile.size();
+    const double magnitude = size() + largestEntry(box);
     if constexpr (requires(Interval i) { profile.range(i, i); }) {
       const Interval rho = convexBound(AxisDistance{origin, axis}, box);
       const Interval z = around(dot(axis, box.center() - origin), extent(box, axis));
@@ -51,6 +51,7 @@ struct AxialShape {
   }
 
   [[nodiscard]] double lipschitz() const { return 1; }
+  [[nodiscard]] double size() const { return largestEntry(origin) + profile.size(); }
 
  private:
   struct AxisDistance {

@@ -45,12 +45,11 @@ struct RoundedBox {
 
   [[nodiscard]] Interval bound(const Box& box) const {
     const detail::AxisDistances d(box, center);
-    return detail::widened(
-        {valueAtDistances(d.near), valueAtDistances(d.far)},
-        detail::largestEntry(center) + detail::largestEntry(box) + detail::largestEntry(core) + radius);
+    return detail::widened({valueAtDistances(d.near), valueAtDistances(d.far)}, size() + detail::largestEntry(box));
   }
 
   [[nodiscard]] double lipschitz() const { return 1; }
+  [[nodiscard]] double size() const { return detail::largestEntry(center) + detail::largestEntry(core) + radius; }
 };
 
 }  // namespace

@@ -46,10 +46,11 @@ struct Ellipsoid {
     Interval ratio{smallestAxis(), largestAxis()};
     if (lo.k1 > 0) ratio = detail::intersection(ratio, {lo.k0 / hi.k1, hi.k0 / lo.k1});
     return detail::widened(detail::product({lo.k0 - 1, hi.k0 - 1}, ratio),
-                           (detail::largestEntry(center) + detail::largestEntry(box) + largestAxis()) * flattening());
+                           (size() + detail::largestEntry(box)) * flattening());
   }
 
   [[nodiscard]] double lipschitz() const { return std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] double size() const { return detail::largestEntry(center) + largestAxis(); }
 
  private:
   /// How much errors of coordinates grow in a flat ellipsoid's value.

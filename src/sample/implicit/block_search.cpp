@@ -51,7 +51,8 @@ Interval boundOf(const BlockSearch& search, const Coord& cube, int level) {
   return search.field.bound(box);
 }
 
-bool oneSided(const Interval& bound) { return bound.lo >= 0 || bound.hi < 0; }
+/// A zero may be on either side.
+bool oneSided(const Interval& bound) { return bound.lo > 0 || bound.hi < 0; }
 
 /// The cubes of the next finer level that reach into the lattice.
 std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks) {

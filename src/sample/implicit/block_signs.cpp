@@ -27,7 +27,7 @@ void sample(const Field& field, const LatticeFrame& frame, const Coord& block, V
     field.values({x.data(), y.data(), z.data(), size}, values.data());
     for (std::size_t i = 0; i < size; ++i) {
       const std::size_t n = static_cast<std::size_t>(first) + i;
-      visit(n / kPerAxis, n % kPerAxis, values[i] < 0);
+      visit(n / kPerAxis, n % kPerAxis, isInside(values[i]));
     }
   }
 }

@@ -6,7 +6,7 @@
 
 namespace pdc::detail {
 
-/// Samples the 9×9×9 points of a block; inside is value < 0, NaN is outside. Leaves `cells` alone.
+/// Samples the 9×9×9 points of a block; see isInside(). Leaves `cells` alone.
 void sampleSigns(const Field& field, const LatticeFrame& frame, const Coord& block, BlockSigns& signs);
 
 /// True if the sides differ among every fourth point of the block, 3×3×3 in all.

@@ -13,6 +13,10 @@ double slabs(const Box& box, double x, double y, double z) {
   return std::max({box.lo.x - x, x - box.hi.x, box.lo.y - y, y - box.hi.y, box.lo.z - z, z - box.hi.z});
 }
 
+/// Whether the box decides, not the field. It does where both are zero: no cell beyond the box may hold surface. NaN
+/// stays.
+bool cuts(double cap, double value) { return cap > value || (cap == 0 && value == 0); }
+
 Vec3d slabsGradient(const Box& box, double distance, const Vec3d& p) {
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d g{};
@@ -32,9 +36,10 @@ CappedField::CappedField(FieldPtr field, double iso, const Box& box) : mField(st
 
 void CappedField::values(PointSpan points, double* values) const {
   mField->values(points, values);
-  // In this order of arguments NaN wins, and NaN is outside.
-  for (std::size_t i = 0; i < points.size; ++i)
-    values[i] = std::max(values[i] - mIso, slabs(mBox, points.x[i], points.y[i], points.z[i]));
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const double value = values[i] - mIso, cap = slabs(mBox, points.x[i], points.y[i], points.z[i]);
+    values[i] = cuts(cap, value) ? cap : value;
+  }
 }
 
 void CappedField::gradients(PointSpan points, double* values, GradientSpan gradients) const {
@@ -43,7 +48,7 @@ void CappedField::gradients(PointSpan points, double* values, GradientSpan gradi
     const Vec3d p{points.x[i], points.y[i], points.z[i]};
     values[i] -= mIso;
     const double cap = slabs(mBox, p.x, p.y, p.z);
-    if (!(cap > values[i])) continue;
+    if (!cuts(cap, values[i])) continue;
     const Vec3d g = slabsGradient(mBox, cap, p);
     values[i] = cap;
     gradients.x[i] = g.x;

@@ -21,7 +21,7 @@ struct Bracket {
 
   [[nodiscard]] double width() const { return std::abs(opposite.t - newest.t); }
   void add(const Sample& sample) {
-    const bool sameSide = (sample.f < 0) == (newest.f < 0);
+    const bool sameSide = isInside(sample.f) == isInside(newest.f);
     previous = std::exchange(newest, sample);
     if (!sameSide) std::swap(previous, opposite);
   }

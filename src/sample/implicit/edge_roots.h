@@ -28,7 +28,7 @@ struct EdgePoints {
 };
 
 /// Where the field changes sign along each edge: t[i] in [0, 1] from the lower end, within 2^-20 of a place where the
-/// side (value < 0, or not) changes, whatever the function does there. Takes about 6 evaluations per edge where the
+/// side (see isInside()) changes, whatever the function does there. Takes about 6 evaluations per edge where the
 /// function is smooth, 22 at a jump, never more than 62. t[i] depends on edge i alone.
 ///
 /// Inverse quadratic interpolation where it can be trusted, else bisection: T. R. Chandrupatla, A new hybrid

@@ -10,6 +10,12 @@ namespace {
 
 constexpr double kDifferenceStep = 1e-3;  // voxels
 
+/// How far within an edge normals are taken where it is crossed at its very end: an edge or a corner of a solid may lie
+/// in that lattice point, and has several normals, of which the one along the edge is meant.
+constexpr double kBesideEnd = 0x1p-20;  // voxels
+
+double besideEnd(double t) { return t == 0 ? kBesideEnd : t == 1 ? 1 - kBesideEnd : t; }
+
 /// g / |g|, or zero if g has no direction. Scaled first, because the squares of usable gradients may under- or
 /// overflow.
 Vec3d direction(const Vec3d& g) {
@@ -48,7 +54,7 @@ Vec3d differenceGradient(const Field& field, const Vec3d& p, double h) {
 void findRootNormals(const Field& field, const LatticeFrame& frame, const EdgeBatch& edges, const double* t,
                      HermiteBlock& hermite, std::size_t first) {
   EdgePoints points;
-  for (std::size_t i = 0; i < edges.size; ++i) points.place(i, frame, edges, i, t[i]);
+  for (std::size_t i = 0; i < edges.size; ++i) points.place(i, frame, edges, i, besideEnd(t[i]));
   std::array<double, EdgeBatch::kCapacity> value, gx, gy, gz;
   field.gradients(points.span(edges.size), value.data(), {gx.data(), gy.data(), gz.data()});
   for (std::size_t i = 0; i < edges.size; ++i) {

@@ -38,8 +38,9 @@ struct AxisKernel {
     const float* p = value + point[i];
     const float* q = p + step;
     const float v0 = p[0], v1 = q[0];
-    const float ratio = v0 / (v0 - v1);
-    // NaN: an end is not finite, or both are zero to single precision.
+    // Both may be zero; see placeIsovalueCrossings().
+    const float ratio = v0 == v1 ? 0.0F : v0 / (v0 - v1);
+    // NaN where an end is not finite.
     const float at = ratio >= 0 ? (ratio <= 1 ? ratio : 0.5F) : 0.5F;
     const float along = v1 - v0;
     const float u = (1 - at) * slope(p, stepU) + at * slope(q, stepU);

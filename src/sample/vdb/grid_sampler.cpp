@@ -6,6 +6,7 @@
 
 #include "sample/vdb/contourable_grids.h"
 #include "sample/vdb/gradient_stencil.h"
+#include "sample/vdb/isovalue_points.h"
 #include "sample/vdb/stencil_reader.h"
 #include "sample/vdb/surface_block_search.h"
 
@@ -57,20 +58,20 @@ class TypedGridSampler final : public GridSampler {
 
   void prefetch(const Coord& block) const override { mStencils.prefetch(block); }
 
-  void fillHermite(const Coord& block, const EdgeIndex& edges, const LatticeMap& map,
-                   HermiteBlock& hermite) const override {
+  void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const override {
     GradientStencil stencil;
-    mStencils.read(block, edges, stencil);
+    mStencils.read(block.coord, block.edges, stencil);
     const auto normalMap = [&map](const Vec3d& x) {
       // Scaled to lattice units, in which gradients are as large as differences of values.
       return inverse(map.jacobian(x)).transposed() * map.voxelSize();
     };
     if (map.affine()) {
-      fillFromStencil(stencil, edges, mLimits, matCast<float>(normalMap({})), hermite);
+      fillFromStencil(stencil, block.edges, mLimits, matCast<float>(normalMap({})), hermite);
     } else {
-      fillFromStencil(stencil, edges, mLimits, Mat3f::identity(), hermite);
-      mapNormals(block, edges, normalMap, hermite);
+      fillFromStencil(stencil, block.edges, mLimits, Mat3f::identity(), hermite);
+      mapNormals(block.coord, block.edges, normalMap, hermite);
     }
+    placeIsovalueCrossings(stencil, block.signs, block.edges, hermite);
   }
 
   [[nodiscard]] std::vector<Coord> someLeaves(std::size_t most) const override {
@@ -81,6 +82,7 @@ class TypedGridSampler final : public GridSampler {
 
   void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const override {
     mStencils.read(block, scale, stencil);
+    fillIsovaluePoints(stencil);
   }
 
  private:

@@ -149,7 +149,7 @@ SourceKnowledge GridSource::knowledge() const {
 }
 
 void GridSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
-  mImpl->sampler->fillHermite(block.coord, block.edges, mImpl->map, hermite);
+  mImpl->sampler->fillHermite(block, mImpl->map, hermite);
 }
 
 void GridSource::fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const {

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <type_traits>
 #include <vector>
 
 #include "math/lane_loops.h"
 #include "pdc/sample/hermite_block.h"
+#include "sample/vdb/isovalue_points.h"
 #include "sample/vdb/leaf_table.h"
 #include "sample/vdb/value_reader.h"
 
@@ -40,7 +43,7 @@ class LeafValues {
 /// Where the points of a block lie.
 enum class Side : std::uint8_t { kOutside, kInside, kBoth };
 
-/// Which points of a tree's leaves are inside.
+/// Which points of a tree's leaves are inside; see isovalue_points.h for those on the isovalue.
 template <typename TreeT>
 class LeafSigns {
  public:
@@ -52,17 +55,20 @@ class LeafSigns {
   LeafSigns(const Table& table, const ValueReader<ValueT>& reader, bool acceptNonFinite)
       : mTable(table), mReader(reader), mInside(table.size()), mSide(table.size()) {
     std::atomic<bool> allFinite = true;
+    tbb::enumerable_thread_specific<std::vector<std::size_t>> onIso;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table.size(), 64), [&](const auto& range) {
       LeafValues<LeafT> values;
-      bool finite = true;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         if (i + 1 < range.end()) prefetch(table.values(i + 1));
-        readLeaf(values.read(table.leaf(i), table.values(i)), mInside[i], finite);
+        const Remarks remarks = readLeaf(values.read(table.leaf(i), table.values(i)), mInside[i]);
         mSide[i] = sideOf(mInside[i]);
+        if (!remarks.allFinite) allFinite.store(false, std::memory_order_relaxed);
+        if (remarks.anyOnIso) onIso.local().push_back(i);
       }
-      if (!finite) allFinite.store(false, std::memory_order_relaxed);
     });
     if (!allFinite && !acceptNonFinite) rejectNonFinite();
+    for (const std::vector<std::size_t>& leaves : onIso) mOnIso.insert(mOnIso.end(), leaves.begin(), leaves.end());
+    addPointsBetween();
   }
 
   [[nodiscard]] const CellMask& inside(std::size_t leaf) const { return mInside[leaf]; }
@@ -84,9 +90,40 @@ class LeafSigns {
       for (std::size_t i = 0; i < LeafT::SIZE; i += 64 / sizeof(ValueT)) __builtin_prefetch(values + i);
   }
 
-  void readLeaf(const ValueT* values, CellMask& inside, bool& allFinite) const {
+  using Remarks = typename ValueReader<ValueT>::Remarks;
+
+  [[nodiscard]] Remarks readLeaf(const ValueT* values, CellMask& inside) const {
+    Remarks remarks;
     forEachBatch(mLevel, kBlockSize,
-                 [&](std::size_t x) { inside.word[x] = mReader.insideBits(values + 64 * x, allFinite); });
+                 [&](std::size_t x) { inside.word[x] = mReader.insideBits(values + 64 * x, remarks); });
+    return remarks;
+  }
+
+  /// Adds the points on the isovalue that lie between two that are strictly inside. All are found before any is added.
+  void addPointsBetween() {
+    std::vector<CellMask> added(mOnIso.size());
+    tbb::parallel_for(std::size_t{0}, mOnIso.size(), [&](std::size_t i) { added[i] = pointsBetween(mOnIso[i]); });
+    for (std::size_t i = 0; i < mOnIso.size(); ++i) {
+      CellMask& inside = mInside[mOnIso[i]];
+      for (int x = 0; x < kBlockSize; ++x) inside.word[x] |= added[i].word[x];
+      mSide[mOnIso[i]] = sideOf(inside);
+    }
+  }
+
+  [[nodiscard]] CellMask pointsBetween(std::size_t leaf) const {
+    const typename Table::Around around(mTable, mTable.coord(leaf));
+    CellMask points =
+        detail::pointsBetween(mInside[leaf], {mask(around(-1, 0, 0)), mask(around(1, 0, 0)), mask(around(0, -1, 0)),
+                                              mask(around(0, 1, 0)), mask(around(0, 0, -1)), mask(around(0, 0, 1))});
+    for (int x = 0; x < kBlockSize; ++x) {
+      std::uint64_t& word = points.word[x];
+      for (std::uint64_t bits = word & ~mInside[leaf].word[x]; bits != 0; bits &= bits - 1) {
+        const int i = std::countr_zero(bits);
+        if (!mReader.onIso(mTable.leaf(leaf).getValue(static_cast<openvdb::Index>(64 * x + i))))
+          word &= ~(std::uint64_t{1} << i);
+      }
+    }
+    return points;
   }
 
   static Side sideOf(const CellMask& inside) {
@@ -121,6 +158,7 @@ class LeafSigns {
   const SimdLevel mLevel = bestSimdLevel();
   Buffer<CellMask> mInside;
   Buffer<Side> mSide;
+  std::vector<std::size_t> mOnIso;  ///< Leaves with values on the isovalue, in any order.
 };
 
 }  // namespace pdc::detail

@@ -22,12 +22,16 @@ class ValueReader {
         mHigher(r.insideIsHigher),
         mSign(r.insideIsHigher ? -1.0F : 1.0F),
         mIsoFloat(float(r.iso)),
-        mIsoIsFloat(static_cast<double>(mIsoFloat) == mIso) {}
+        mIsoIsFloat(static_cast<double>(mIsoFloat) == mIso),
+        mIsoIsValue(isValue(r.iso)),
+        mIsoValue(mIsoIsValue ? static_cast<ValueT>(r.iso) : ValueT{}) {}
 
   [[nodiscard]] bool inside(ValueT v) const {
     const auto d = static_cast<double>(v);
     return mHigher ? d > mIso : d < mIso;
   }
+  /// Whether a value is the isovalue.
+  [[nodiscard]] bool onIso(ValueT v) const { return mIsoIsValue && v == mIsoValue; }
   [[nodiscard]] float value(ValueT v) const { return static_cast<float>(static_cast<double>(v) - mIso) * mSign; }
 
   /// False for values that must not enter a slope: clamped or not finite.
@@ -55,17 +59,25 @@ class ValueReader {
     }
   }
 
-  /// inside() of 64 values, one per bit. \param allFinite set to false if one is not.
-  [[nodiscard]] std::uint64_t insideBits(const ValueT* from, bool& allFinite) const {
+  /// What is remarkable among values.
+  struct Remarks {
+    bool allFinite = true;
+    bool anyOnIso = false;
+  };
+
+  /// inside() of 64 values, one per bit. \param remarks is added to.
+  [[nodiscard]] std::uint64_t insideBits(const ValueT* from, Remarks& remarks) const {
     std::uint8_t flag[64];
+    const ValueT iso = mIsoValue;
+    int bad = 0, on = 0;
     if constexpr (std::is_floating_point_v<ValueT>) {
-      int bad = 0;
       // This vectorises, unlike isfinite().
       for (int i = 0; i < 64; ++i) bad |= !(std::abs(from[i]) <= std::numeric_limits<ValueT>::max());
-      allFinite = allFinite && bad == 0;
     }
+    for (int i = 0; i < 64; ++i) on |= from[i] == iso;
+    remarks.allFinite = remarks.allFinite && bad == 0;
+    remarks.anyOnIso = remarks.anyOnIso || (mIsoIsValue && on != 0);
     if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
-      const auto iso = static_cast<ValueT>(mIsoFloat);
       if (mHigher) {
         for (int i = 0; i < 64; ++i) flag[i] = from[i] > iso;
       } else {
@@ -78,6 +90,12 @@ class ValueReader {
   }
 
  private:
+  static bool isValue(double iso) {
+    using Limits = std::numeric_limits<ValueT>;
+    return iso >= static_cast<double>(Limits::lowest()) && iso <= static_cast<double>(Limits::max()) &&
+           static_cast<double>(static_cast<ValueT>(iso)) == iso;
+  }
+
   /// Bit i is flag[i], which is 0 or 1.
   static std::uint64_t packFlags(const std::uint8_t (&flag)[64]) {
     static_assert(std::endian::native == std::endian::little);
@@ -95,6 +113,8 @@ class ValueReader {
   bool mHigher;
   float mSign, mIsoFloat;
   bool mIsoIsFloat;
+  bool mIsoIsValue;  ///< Whether values can equal the isovalue.
+  ValueT mIsoValue;
 };
 
 }  // namespace pdc::detail

@@ -84,18 +84,32 @@ TEST(EdgeRoots, BracketHoldsForSteepFlatAndBrokenFunctions) {
   }
 }
 
-TEST(EdgeRoots, RootAtAnEndIsThatEnd) {
+/// The roots of the two edges along y that meet at y = 0.
+std::array<double, 2> rootsAboutZero(const std::function<double(const Vec3d&)>& f) {
   EdgeBatch edges;
   edges.size = 2;
   for (auto& low : edges.low) low[0] = low[1] = 0;
   edges.low[1][1] = -1;
   edges.axis[0] = edges.axis[1] = 1;
-  const test::CountingField field([](const Vec3d& p) { return -std::abs(p.y); }, [](const Vec3d&) { return Vec3d{}; },
-                                  test::unknownBound);
-  double t[2];
-  findEdgeRoots(field, {{5, 0, 5}, 0.25}, edges, t);
-  EXPECT_EQ(t[0], 0);
-  EXPECT_EQ(t[1], 1);
+  const test::CountingField field(
+      f, [](const Vec3d&) { return Vec3d{}; }, test::unknownBound);
+  std::array<double, 2> t;
+  findEdgeRoots(field, {{5, 0, 5}, 0.25}, edges, t.data());
+  return t;
+}
+
+TEST(EdgeRoots, RootAtAnEndIsThatEnd) {
+  // The zero is outside, then inside.
+  EXPECT_EQ(rootsAboutZero([](const Vec3d& p) { return 0.0 - std::abs(p.y); }), (std::array<double, 2>{0, 1}));
+  EXPECT_EQ(rootsAboutZero([](const Vec3d& p) { return p.y == 0 ? -0.0 : std::abs(p.y); }),
+            (std::array<double, 2>{0, 1}));
+}
+
+TEST(EdgeRoots, AmongZerosTheSignTells) {
+  const double at = 0.07;
+  const auto t = rootsAboutZero([=](const Vec3d& p) { return std::abs(p.y) < at ? -0.0 : 0.0; });
+  EXPECT_NEAR(t[0], at / 0.25, 2e-6);
+  EXPECT_NEAR(t[1], 1 - at / 0.25, 2e-6);
 }
 
 TEST(EdgeRoots, DoNotDependOnTheBatch) {

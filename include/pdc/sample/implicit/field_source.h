@@ -16,7 +16,7 @@ inline constexpr int kMaxVoxelsPerAxis = 1 << 20;
 struct FieldSourceOptions {
   Box box;               ///< World units. The surface is looked for inside it.
   double voxelSize = 0;  ///< World units, > 0. The lattice starts at box.lo; see voxelsAlong().
-  double iso = 0;        ///< The surface is where the field equals this.
+  double iso = 0;        ///< The surface is where the field equals this; see isInside() for values on it.
   /// false: the solid is cut off at the box and the mesh is closed. true: the surface ends within a voxel of the box.
   bool open = false;
 };
@@ -27,9 +27,9 @@ struct FieldSourceOptions {
 /// memory grow with the surface. Where bound() is infinite on a side and decides nothing, a block is first sampled
 /// every fourth lattice point; the surface is then followed across block faces from where it was seen, so only
 /// components that slip through that coarse lattice altogether are missed. Crossings are bracketed to 2^-20 of the
-/// edge; normals are the field's gradients there, and, where those are not finite or zero, central differences. \throws
-/// Error for an empty box, a voxel size that is not positive, gives too many voxels or is below 2^-32 of the box's
-/// coordinates; std::invalid_argument for null.
+/// edge; normals are the field's gradients there, or a hair inside the edge where it is crossed at its end, and, where
+/// those are not finite or zero, central differences. \throws Error for an empty box, a voxel size that is not
+/// positive, gives too many voxels or is below 2^-32 of the box's coordinates; std::invalid_argument for null.
 class FieldSource final : public HermiteSource {
  public:
   FieldSource(FieldPtr field, const FieldSourceOptions& options);

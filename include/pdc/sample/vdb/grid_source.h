@@ -39,10 +39,12 @@ struct GridSourceOptions {
 /// A scalar OpenVDB grid (float, double, int32, int64, bool) on its own lattice, read straight from its leaf buffers.
 ///
 /// Inside is value < iso; for fog volumes value > iso; for unclassified grids the side of iso that the background is
-/// not on. Crossings are linear along the edge; normals are the gradient of the trilinear interpolant there (averaged
-/// over the four cells at the edge), through the inverse transpose of the transform. Values at or beyond the background
-/// of a level set are treated as clamped: one-sided differences replace central ones there. Transforms may be affine or
-/// frustums; a frustum's voxel size and sense are those at the centre of the active voxels.
+/// not on. A value that is the isovalue is inside only between two insides along an axis, as where solids touch in a
+/// layer of lattice points, and then counts as their mean. Crossings are linear along the edge; normals are the
+/// gradient of the trilinear interpolant there (averaged over the four cells at the edge), through the inverse
+/// transpose of the transform. Values at or beyond the background of a level set are treated as clamped: one-sided
+/// differences replace central ones there. Transforms may be affine or frustums; a frustum's voxel size and sense are
+/// those at the centre of the active voxels.
 ///
 /// The source shares the grids, which must not change while it lives. Its functions may be called from many threads at
 /// once. Making one finds the tree's leaves, in parallel on the calling thread's arena.
