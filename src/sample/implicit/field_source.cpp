@@ -14,6 +14,7 @@
 #include "sample/implicit/block_search.h"
 #include "sample/implicit/capped_field.h"
 #include "sample/implicit/edge_roots.h"
+#include "sample/implicit/missing_points.h"
 #include "sample/implicit/root_normals.h"
 
 namespace pdc {
@@ -69,12 +70,17 @@ long long voxelsAlong(double side, double voxelSize) {
 }
 
 FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
-    : mField(makeLevelField(std::move(field), options)),
+    : mFunction(field),
+      mField(makeLevelField(std::move(field), options)),
       mOptions(options),
       mMap(Mat3d::diagonal(options.voxelSize, options.voxelSize, options.voxelSize), options.box.lo) {}
 
 SurfaceBlocks FieldSource::surfaceBlocks(const Monitor& monitor) const {
-  return detail::findSurfaceBlocks({*mField, frameOf(mOptions), cellCounts(mOptions), mOptions.open}, monitor);
+  const detail::LatticeFrame frame = frameOf(mOptions);
+  const Coord cells = cellCounts(mOptions);
+  detail::MissingPoints missing(*mFunction, frame, cells);
+  return detail::findSurfaceBlocks(
+      {*mField, frame, cells, mOptions.open, mOptions.acceptNonFinite ? nullptr : &missing}, monitor);
 }
 
 void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
