@@ -14,6 +14,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,27 @@ FloatGrid::Ptr fogSphere(float radius) {
   const FloatGrid::Ptr grid = sphere(radius);
   openvdb::tools::sdfToFogVolume(*grid);
   return grid;
+}
+
+/// n³ voxels of a level set about +1, each drawn by itself: data as rough as can be.
+template <typename Value>
+FloatGrid::Ptr rough(int n, Value&& value) {
+  const FloatGrid::Ptr grid = FloatGrid::create(1);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; y < n; ++y)
+      for (int z = 0; z < n; ++z) grid->tree().setValueOn({x, y, z}, value(x, y, z));
+  return grid;
+}
+
+FloatGrid::Ptr checkerboard(int n) {
+  return rough(n, [](int x, int y, int z) { return (x + y + z) % 2 == 0 ? -1.0F : 1.0F; });
+}
+
+FloatGrid::Ptr noise(int n) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  return rough(n, [&](int, int, int) { return normal(random); });
 }
 
 /// The first float grid of a file; null where there is none.
@@ -137,8 +159,9 @@ void addAll(const Input& input) {
 
 }  // namespace
 
-/// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, and --large for the sphere of radius
-/// 1000.
+/// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, --large for the sphere of radius 1000,
+/// and
+/// --rough for grids without a smooth surface.
 int main(int argc, char** argv) {
   openvdb::initialize();
   benchmark::Initialize(&argc, argv);
@@ -149,6 +172,11 @@ int main(int argc, char** argv) {
     const std::string argument = argv[i];
     if (argument == "--large") {
       addAll({"sphere_1000", sphere(1000)});
+    } else if (argument == "--rough") {
+      for (const int n : {16, 48}) {
+        addAll({"checkerboard_" + std::to_string(n), checkerboard(n)});
+        addAll({"noise_" + std::to_string(n), noise(n)});
+      }
     } else if (const FloatGrid::Ptr grid = read(argument)) {
       addAll({argument.substr(argument.rfind('/') + 1), grid});
     } else {

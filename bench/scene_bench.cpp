@@ -19,6 +19,8 @@
 #include <vector>
 
 #include "pdc/extract/contour.h"
+#include "pdc/field/operators.h"
+#include "pdc/field/primitives.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/sample/implicit/field_source.h"
 
@@ -77,9 +79,25 @@ void sampleBox(const pdc::Field& field, const pdc::Box& box, int n, double h) {
   });
 }
 
-void printRow(const std::filesystem::path& path, int resolution, int threads, double& previous) {
+/// A union of n spheres in rows, side by side.
+pdc::Scene manyParts(int n) {
+  pdc::Scene scene;
+  scene.name = fmt::format("union_of_{}", n);
+  scene.box = {{-1, -1, -1}, {1, 1, 1}};
+  const int perAxis = static_cast<int>(std::ceil(std::cbrt(n)));
+  const double step = 2.0 / perAxis;
+  std::vector<pdc::FieldPtr> parts;
+  for (int i = 0; i < n; ++i)
+    parts.push_back(
+        pdc::sphere(pdc::Vec3d{i / (perAxis * perAxis) + 0.5, i / perAxis % perAxis + 0.5, i % perAxis + 0.5} * step -
+                        pdc::Vec3d{1, 1, 1},
+                    0.4 * step));
+  scene.field = pdc::unite(std::move(parts));
+  return scene;
+}
+
+void printRow(const pdc::Scene& scene, int resolution, int threads, double& previous) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  const pdc::Scene scene = pdc::readScene(path);
   const pdc::Vec3d size = scene.box.hi - scene.box.lo;
   const double h = std::max({size.x, size.y, size.z}) / resolution;
   const auto contour = [&](const pdc::FieldPtr& field) {
@@ -94,9 +112,8 @@ void printRow(const std::filesystem::path& path, int resolution, int threads, do
   const auto box = resolution <= kMostSampled
                        ? fmt::format("{:.0f}", milliseconds([&] { sampleBox(*scene.field, scene.box, resolution, h); }))
                        : std::string();
-  fmt::print("{:20} {:6} {:7} {:9.0f} {:9.1f} {:10.0f} {:9.1f} {:6} {:>10}\n", path.stem().string(), resolution,
-             threads, vertices, time, 1e6 * time / vertices, static_cast<double>(counting->points()) / vertices, growth,
-             box);
+  fmt::print("{:20} {:6} {:7} {:9.0f} {:9.1f} {:10.0f} {:9.1f} {:6} {:>10}\n", scene.name, resolution, threads,
+             vertices, time, 1e6 * time / vertices, static_cast<double>(counting->points()) / vertices, growth, box);
   std::fflush(stdout);
   previous = time;
 }
@@ -111,12 +128,24 @@ int main(int argc, char** argv) {
     scenes.push_back(std::filesystem::path(PDC_SCENES) / (std::string(name) + ".yaml"));
   app.add_option("--threads", threads, "How many")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("SCENES", scenes, "Four of the project's own, unless others are named")->check(CLI::ExistingFile);
+  int parts = 0;
+  app.add_option("--parts", parts, "A union of so many spheres, at 32 and 64 cells, instead of scenes")
+      ->check(CLI::Range(1, 100'000));
   CLI11_PARSE(app, argc, argv);
   fmt::print("{:20} {:>6} {:>7} {:>9} {:>9} {:>10} {:>9} {:>6} {:>10}\n", "scene", "cells", "threads", "vertices", "ms",
              "ns/vertex", "samples/v", "2^", "box, ms");
-  for (const auto& scene : scenes) {
+  const auto printRows = [&](const pdc::Scene& scene, const std::vector<int>& resolutions) {
     double previous = 0;
-    for (const int resolution : {256, 512, 1024}) printRow(scene, resolution, threads, previous);
+    for (const int resolution : resolutions) printRow(scene, resolution, threads, previous);
+  };
+  if (parts > 0) {
+    printRows(manyParts(parts), {32, 64});
+    return 0;
+  }
+  for (const auto& path : scenes) {
+    pdc::Scene scene = pdc::readScene(path);
+    scene.name = path.stem().string();
+    printRows(scene, {256, 512, 1024});
   }
   return 0;
 }

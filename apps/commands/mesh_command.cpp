@@ -96,11 +96,18 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   return mesh;
 }
 
+/// "12 quads", "12 triangles", or both where both are there.
+std::string facesText(const MeshRun& run) {
+  const std::string triangles = fmt::format("{} triangles", run.triangles);
+  if (run.options.triangles) return triangles;
+  const std::string quads = fmt::format("{} quads", run.quads);
+  return run.triangles == 0 ? quads : fmt::format("{} and {}", quads, triangles);
+}
+
 void printSummary(const MeshRequest& request, const MeshRun& run) {
   const std::size_t open = run.contour.boundaryEdges;
   const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
-  fmt::print("{}: {} vertices, {} {}, {}; {} bytes\n", request.output.string(), run.vertices,
-             run.options.triangles ? run.triangles : run.quads, run.options.triangles ? "triangles" : "quads", boundary,
+  fmt::print("{}: {} vertices, {}, {}; {} bytes\n", request.output.string(), run.vertices, facesText(run), boundary,
              run.bytesWritten);
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);

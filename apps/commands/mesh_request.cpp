@@ -44,6 +44,7 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
                "intersect, in their cell, or free without that promise")
       ->group(group);
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
+  addNonFinite(command, request.acceptNonFinite)->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
   command.add_flag("--confidence", request.confidence, "A confidence from 0 to 1 per vertex, in a .ply")->group(group);
@@ -78,9 +79,6 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto grids = "For .vdb inputs";
   command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
-  addChoice(command, "--nan", request.acceptNonFinite, kNonFiniteModes, "What NaN and infinite voxels are (error)")
-      ->type_name("MODE")
-      ->group(grids);
   addChoice(command, "--hermite", request.hermite, kHermiteModes,
             "Where planes come from (auto): gradients at crossings; or,\n"
             "beside creases, distances; auto: distances if the grid has them")
@@ -119,8 +117,8 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
 InputOptions MeshRequest::inputOptions() const {
   return {.iso = iso,
           .open = open,
-          .grid = grid,
           .acceptNonFinite = acceptNonFinite.value_or(false),
+          .grid = grid,
           .hermite = hermite.value_or(HermiteMode::kAuto),
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
@@ -149,6 +147,12 @@ std::string placementName(Placement placement) {
 
 CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help) {
   return addChoice(command, "--placement", target, kPlacements, help)->type_name("WHERE");
+}
+
+CLI::Option* addNonFinite(CLI::App& command, std::optional<bool>& target) {
+  return addChoice(command, "--nan", target, kNonFiniteModes,
+                   "What NaN, inf and -inf of voxels and functions are (error):\nan error, or outside")
+      ->type_name("MODE");
 }
 
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
@@ -191,7 +195,6 @@ void checkMeshRequest(const MeshRequest& request) {
       break;
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
-      refuseOther(request.acceptNonFinite.has_value(), "--nan", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");

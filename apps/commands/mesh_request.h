@@ -42,6 +42,9 @@ void addMeshOptions(CLI::App& command, MeshRequest& request);
 /// Declares --placement.
 CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help);
 
+/// Declares --nan.
+CLI::Option* addNonFinite(CLI::App& command, std::optional<bool>& target);
+
 /// Declares --sigma-grid and --weight-grid.
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group);
 

@@ -66,6 +66,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
       "finite numbers > 0", "Of a scene: edges of a cell, in world units");
   addPlacement(command, mesh.placement, "Where vertices may lie (certified), as for pdc mesh");
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
+  addNonFinite(command, mesh.acceptNonFinite);
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
   addNoiseGrids(command, mesh, "OPTIONS");
   command

@@ -19,9 +19,21 @@
 namespace pdc {
 namespace {
 
+/// Of a long expression what stands about `position`.
+std::string excerpt(const std::string& expression, std::size_t position) {
+  constexpr std::size_t kAround = 40, kLongest = 2 * kAround + 20;
+  if (expression.size() <= kLongest) return expression;
+  const std::size_t begin = std::min(position, expression.size()) - std::min(position, kAround);
+  const std::size_t end = std::min(begin + 2 * kAround, expression.size());
+  return fmt::format("{}{}{}", begin > 0 ? "..." : "", expression.substr(begin, end - begin),
+                     end < expression.size() ? "..." : "");
+}
+
 [[noreturn]] void fail(const std::string& expression, int position, std::string message) {
   if (!message.empty() && message.back() == '.') message.pop_back();
-  std::string line = fmt::format("formula \"{}\", position {}: {}", expression, std::max(position, 0), message);
+  position = std::max(position, 0);
+  std::string line = fmt::format("formula \"{}\", position {}: {}",
+                                 excerpt(expression, static_cast<std::size_t>(position)), position, message);
   std::replace_if(
       line.begin(), line.end(), [](unsigned char c) { return c < ' '; }, ' ');
   throw Error(line);
@@ -40,6 +52,17 @@ void refuseAssignment(const std::string& expression) {
   }
 }
 
+/// muParser takes no longer ones.
+void refuseLong(const std::string& expression) {
+  constexpr std::size_t kLongest = mu::MaxLenExpression - 1;
+  if (expression.size() > kLongest)
+    fail(expression, static_cast<int>(kLongest),
+         fmt::format("The formula has {} characters, must have at most {}", expression.size(), kLongest));
+}
+
+/// The remainder that has the sign of the divisor: periodic, also where x is negative.
+double floorMod(double x, double period) { return x - period * std::floor(x / period); }
+
 /// A parser with variables of its own, for one thread at a time.
 class Evaluator {
  public:
@@ -48,6 +71,10 @@ class Evaluator {
     mParser.DefineVar("y", &mY);
     mParser.DefineVar("z", &mZ);
     mParser.DefineConst("pi", std::numbers::pi);
+    mParser.DefineFun("floor", static_cast<double (*)(double)>(std::floor));
+    mParser.DefineFun("ceil", static_cast<double (*)(double)>(std::ceil));
+    mParser.DefineFun("round", static_cast<double (*)(double)>(std::round));
+    mParser.DefineFun("mod", floorMod);
     mParser.SetExpr(expression);
   }
   Evaluator(const Evaluator&) = delete;
@@ -70,6 +97,7 @@ class Evaluator {
 
 /// \throws Error for everything that would otherwise go wrong when points are evaluated.
 void check(const std::string& expression) {
+  refuseLong(expression);
   refuseAssignment(expression);
   try {
     Evaluator evaluator(expression);

@@ -4,12 +4,14 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "field/arguments.h"
 #include "field/boundary.h"
+#include "field/finite_voxels.h"
 #include "field/image_box.h"
 #include "field/interval_arithmetic.h"
 #include "field/trilinear_cell.h"
@@ -104,7 +106,10 @@ class GridField final : public Field {
   /// As many voxels per axis as a box of 8³ cells touches, wherever it lies on the lattice.
   static constexpr int kScanVoxels = 10;
 
-  [[nodiscard]] double value(const TrilinearCell& cell) const { return detail::open(mSign * (cell.value() - mIso)); }
+  [[nodiscard]] double value(const TrilinearCell& cell) const {
+    const double v = cell.value();
+    return std::isfinite(v) ? detail::open(mSign * (v - mIso)) : std::numeric_limits<double>::quiet_NaN();
+  }
 
   [[nodiscard]] TrilinearCell cellAt(const Vec3d& world, const Accessor& accessor) const {
     const Vec3d p = mToIndex.linear * (world - mToIndex.origin);
@@ -153,13 +158,15 @@ class GridField final : public Field {
 
 }  // namespace
 
-FieldPtr gridField(const openvdb::GridBase::ConstPtr& grid, double iso, bool insideIsHigher) {
+FieldPtr gridField(const openvdb::GridBase::ConstPtr& grid, double iso, bool insideIsHigher, bool acceptNonFinite) {
   if (!grid) throw std::invalid_argument("gridField grid must not be null");
   detail::requireFinite("gridField iso", iso);
-  if (auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid))
-    return std::make_shared<GridField<openvdb::FloatGrid>>(std::move(floats), iso, insideIsHigher);
-  if (auto doubles = openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid))
-    return std::make_shared<GridField<openvdb::DoubleGrid>>(std::move(doubles), iso, insideIsHigher);
+  const auto make = [&]<typename Grid>(std::shared_ptr<const Grid> typed) -> FieldPtr {
+    if (!acceptNonFinite) detail::requireFiniteVoxels(typed->tree());
+    return std::make_shared<GridField<Grid>>(std::move(typed), iso, insideIsHigher);
+  };
+  if (auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return make(std::move(floats));
+  if (auto doubles = openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid)) return make(std::move(doubles));
   throw Error(
       fmt::format("grid \"{}\": values of type {}, expected float or double", grid->getName(), grid->valueType()));
 }

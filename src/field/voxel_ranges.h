@@ -17,10 +17,11 @@ namespace pdc::detail {
 inline constexpr Interval kEmptyRange{std::numeric_limits<double>::infinity(),
                                       -std::numeric_limits<double>::infinity()};
 
-/// Grows the range to hold the value; NaN leaves no trace.
+/// Grows the range to hold the value; NaN and infinite ones leave no trace.
 inline void include(Interval& range, double value) {
-  range.lo = value < range.lo ? value : range.lo;
-  range.hi = value > range.hi ? value : range.hi;
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  range.lo = value < range.lo && value >= -kLargest ? value : range.lo;
+  range.hi = value > range.hi && value <= kLargest ? value : range.hi;
 }
 
 /// Smallest and largest voxel of any index box, from the stored ranges of cubes with edges of 8, 16, 32... voxels.
@@ -40,7 +41,8 @@ class VoxelRanges {
     }
   }
 
-  /// The range of the voxels in [lo, hi], both included, and perhaps of some around them; empty if all are NaN.
+  /// The range of the voxels in [lo, hi], both included, and perhaps of some around them; empty if none is
+  /// finite.
   [[nodiscard]] Interval range(const openvdb::Coord& lo, const openvdb::Coord& hi) const {
     std::size_t level = 0;
     while (level < mLevels.size() && !fewCubes(cubeOf(lo, level), cubeOf(hi, level))) ++level;

@@ -27,7 +27,6 @@ void checkGridOptions(const fs::path& path, const InputOptions& options) {
 void checkSceneOptions(const fs::path& path, const InputOptions& options) {
   const auto grids = ".vdb inputs";
   refuseOther(options.grid.has_value(), path, "a grid's name", grids);
-  refuseOther(options.acceptNonFinite, path, "accepting non-finite values", grids);
   refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
@@ -83,15 +82,18 @@ double longestSide(const Box& box) {
 
 Input openScene(const fs::path& path, const InputOptions& options) {
   checkSceneOptions(path, options);
-  const Scene scene = readScene(path);
+  const Scene scene = readScene(path, options.acceptNonFinite);
   double voxelSize = options.voxelSize.value_or(scene.voxelSize);
   if (options.resolution) voxelSize = longestSide(scene.box) / *options.resolution;
   Input input;
   input.iso = options.iso.value_or(scene.iso);
   input.sigmaNormal = scene.sigmaNormal;
-  auto source = std::make_unique<FieldSource>(
-      scene.field,
-      FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = input.iso, .open = options.open});
+  auto source =
+      std::make_unique<FieldSource>(scene.field, FieldSourceOptions{.box = scene.box,
+                                                                    .voxelSize = voxelSize,
+                                                                    .iso = input.iso,
+                                                                    .open = options.open,
+                                                                    .acceptNonFinite = scene.acceptNonFinite});
   input.field = source->levelField();
   input.planeOrigin = PlaneOrigin::kFunction;
   input.whyEmpty = [iso = input.iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); };

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/hubs.h"
+#include "mesh/oriented_box.h"
 #include "mesh/triangle_pair.h"
 #include "pdc/math/box.h"
 #include "pdc/mesh/mesh.h"
@@ -18,26 +20,36 @@ namespace pdc::detail {
 
 /// A hierarchy of boxes over triangles of a mesh: leaves of a few triangles that are neighbours along a space-filling
 /// curve, and above them boxes of kFan boxes each. Triangles of very different size are in different branches, so that
-/// a huge one does not make the boxes of small ones huge.
+/// a huge one does not make the boxes of small ones huge. Slivers are in branches of their own, which have oriented
+/// boxes too, and so are the triangles of each hub.
 class TriangleTree {
  public:
   static constexpr std::size_t kLeaf = 4, kFan = 4;
 
   /// Sorts the triangles with these numbers (see faces.h), all of them finite. Runs in parallel; the tree depends only
-  /// on the mesh and the numbers.
-  TriangleTree(const Mesh& mesh, Buffer<std::uint32_t> triangles);
+  /// on the arguments.
+  /// \param hubs the hub of each, or kNoHub; empty for no hubs. \param margin boxes reach so far beyond the triangles.
+  explicit TriangleTree(const Mesh& mesh, Buffer<std::uint32_t> triangles, std::span<const std::uint32_t> hubs = {},
+                        float margin = 0);
 
   [[nodiscard]] std::size_t leafCount() const { return mLevels.empty() ? 0 : mLevels.front().size(); }
   /// Numbers of the triangles of a leaf.
-  [[nodiscard]] std::span<const std::uint32_t> leaf(std::size_t i) const {
-    return std::span(mTriangles).subspan(kLeaf * i, std::min(kLeaf, mTriangles.size() - kLeaf * i));
+  [[nodiscard]] std::span<const std::uint32_t> leaf(std::size_t i) const { return part(mTriangles, i); }
+  /// Their hubs; empty if there are none in the tree.
+  [[nodiscard]] std::span<const std::uint32_t> leafHubs(std::size_t i) const {
+    return mHubs.empty() ? std::span<const std::uint32_t>() : part(mHubs, i);
   }
 
-  /// Calls visit(j) for this leaf and all later ones whose boxes meet its box, until visit returns false. The order
-  /// depends on the tree only.
+  /// Calls visit(j) for this leaf and all later ones whose boxes meet its box, until visit returns false; but not where
+  /// all triangles of both are at one hub. The order depends on the tree only.
   template <typename Visit>
   bool visitNeighbours(std::size_t i, Visit&& visit) const {
-    return visitBelow(mLevels.size() - 1, 0, i, mLevels.front()[i], visit);
+    const BoxF& box = mLevels.front()[i];
+    const SliverNode* sliver = sliverNode(0, i);
+    if (sliver != nullptr || mSlivers.empty() || mSlivers.front().nodes.empty())
+      return visitBelow(mLevels.size() - 1, 0, {i, box, sliver}, visit);
+    const SliverNode plain{OrientedBox(box), kNoHub};
+    return visitBelow(mLevels.size() - 1, 0, {i, box, &plain}, visit);
   }
 
   /// Calls visit(triangle) for all triangles that may be nearer to p than the square root of `reach`, which the visitor
@@ -62,22 +74,60 @@ class TriangleTree {
       visitNearestBelow(level - 1, order[i].second, p, reach, visit);
   }
 
+  /// What a node in the branches of slivers and hubs has besides its box.
+  struct SliverNode {
+    OrientedBox box;
+    std::uint32_t hub = kNoHub;  ///< The one hub of all its triangles.
+  };
+  /// The last nodes of a level: all those in the branches of slivers and hubs.
+  struct SliverNodes {
+    std::size_t first = 0;
+    Buffer<SliverNode> nodes;
+  };
+  /// A leaf that looks for neighbours.
+  struct Query {
+    std::size_t leaf;
+    const BoxF& box;
+    const SliverNode* sliver;  ///< Null where there are no slivers.
+  };
+
+  [[nodiscard]] static std::span<const std::uint32_t> part(const Buffer<std::uint32_t>& all, std::size_t leaf) {
+    return std::span(all).subspan(kLeaf * leaf, std::min(kLeaf, all.size() - kLeaf * leaf));
+  }
+
+  [[nodiscard]] const SliverNode* sliverNode(std::size_t level, std::size_t node) const {
+    if (level >= mSlivers.size() || node < mSlivers[level].first) return nullptr;
+    return &mSlivers[level].nodes[node - mSlivers[level].first];
+  }
+
+  [[nodiscard]] bool mayMeet(std::size_t level, std::size_t node, const Query& query) const {
+    if (!mLevels[level][node].meets(query.box)) return false;
+    const SliverNode* sliver = sliverNode(level, node);
+    if (sliver == nullptr) return true;
+    if (sliver->hub != kNoHub && sliver->hub == query.sliver->hub) return false;
+    return !sliver->box.apartFrom(query.sliver->box);
+  }
+
   template <typename Visit>
-  bool visitBelow(std::size_t level, std::size_t node, std::size_t first, const BoxF& box, Visit& visit) const {
-    if (!mLevels[level][node].meets(box)) return true;
+  bool visitBelow(std::size_t level, std::size_t node, const Query& query, Visit& visit) const {
+    if (!mayMeet(level, node, query)) return true;
     if (level == 0) return visit(node);
-    const std::size_t lo = std::max(kFan * node, first >> (kFanBits * (level - 1)));
+    const std::size_t lo = std::max(kFan * node, query.leaf >> (kFanBits * (level - 1)));
     const std::size_t hi = std::min(kFan * (node + 1), mLevels[level - 1].size());
     for (std::size_t child = lo; child < hi; ++child)
-      if (!visitBelow(level - 1, child, first, box, visit)) return false;
+      if (!visitBelow(level - 1, child, query, visit)) return false;
     return true;
   }
+
+  void addSliverLeaves(const Mesh& mesh, std::size_t firstTriangle, float margin);
+  void addSliverLevel();
 
   static constexpr std::size_t kFanBits = 2;
   static_assert(kFan == std::size_t{1} << kFanBits);
 
-  Buffer<std::uint32_t> mTriangles;
+  Buffer<std::uint32_t> mTriangles, mHubs;
   std::vector<Buffer<BoxF>> mLevels;  ///< The leaves first, the one root last.
+  std::vector<SliverNodes> mSlivers;  ///< For each level, as far up as it has any.
 };
 
 }  // namespace pdc::detail

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <stdexcept>
 
 #include "mesh/mesh_checks.h"
@@ -39,9 +40,13 @@ Image run(const Mesh& mesh, const RenderOptions& options, const Monitor& monitor
       options.camera ? *options.camera : fitCamera({&mesh, 1}, options.towardsViewer, options.width, options.height);
   const detail::ViewMesh view = detail::viewMesh(mesh, camera, options.width, options.height);
   monitor.throwIfStopped();
-  const detail::RayScene rays(view.positions, view.triangles);
+  const detail::DividedTriangles divided = detail::divideTriangles(view, options.width, options.height);
+  const bool whole = divided.slivers.empty();
+  const detail::RayScene rays(view.positions, whole ? view.triangles : divided.others);
+  std::optional<detail::RayScene> occluders;
+  if (!whole) occluders.emplace(view.positions, divided.occluders);
   // Rays start one pixel above the mesh.
-  const detail::Picture picture{view, rays, options, highest(view) + 1};
+  const detail::Picture picture{view, divided, rays, whole ? rays : *occluders, options, highest(view) + 1};
 
   Image image{options.width, options.height, {}};
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));

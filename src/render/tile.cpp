@@ -93,21 +93,28 @@ void TileRenderer::castSamples() {
     for (int column = 0; column < mSamplesAcross; ++column)
       mSamples[column + row * mSamplesAcross] = cast(mX0 + (static_cast<float>(column) + 0.5F) / kSamplesPerAxis,
                                                      mY0 + (static_cast<float>(row) + 0.5F) / kSamplesPerAxis);
+  for (const std::uint32_t sliver : mPicture.divided.slivers) drawSliver(sliver);
 }
 
 TileRenderer::Sample TileRenderer::cast(float x, float y) const {
-  const ViewMesh& mesh = mPicture.mesh;
-  const RenderOptions& options = mPicture.options;
-  const float up = static_cast<float>(options.height) - y;
+  const float up = static_cast<float>(mPicture.options.height) - y;
   const RayHit hit = mPicture.rays.hit({x, up, mPicture.eyeHeight}, {0, 0, -1});
   if (!hit.found) return {};
-  const std::array<float, 3> weights{1 - hit.u - hit.v, hit.u, hit.v};
-  const Triangle& t = mesh.triangles[hit.triangle];
-  Sample sample{.z = mPicture.eyeHeight - hit.distance, .hit = true};
-  for (int k = 0; k < 3; ++k) sample.normal += mesh.cornerNormals[hit.triangle][k] * weights[k];
+  const Buffer<std::uint32_t>& numbers = mPicture.divided.otherNumbers;
+  return sampleOf(numbers.empty() ? hit.triangle : numbers[hit.triangle], {1 - hit.u - hit.v, hit.u, hit.v},
+                  mPicture.eyeHeight - hit.distance);
+}
+
+TileRenderer::Sample TileRenderer::sampleOf(std::uint32_t triangle, const std::array<float, 3>& weights,
+                                            float z) const {
+  const ViewMesh& mesh = mPicture.mesh;
+  const RenderOptions& options = mPicture.options;
+  const Triangle& t = mesh.triangles[triangle];
+  Sample sample{.z = z, .hit = true};
+  for (int k = 0; k < 3; ++k) sample.normal += mesh.cornerNormals[triangle][k] * weights[k];
   const float l = length(sample.normal);
-  sample.normal = l > 0 ? sample.normal * (1 / l) : mesh.faceNormals[hit.triangle];
-  sample.backFace = mesh.faceNormals[hit.triangle].z < 0;
+  sample.normal = l > 0 ? sample.normal * (1 / l) : mesh.faceNormals[triangle];
+  sample.backFace = mesh.faceNormals[triangle].z < 0;
   if (sample.backFace) sample.normal = -sample.normal;
   if (options.shading == Shading::kValues) {
     float value = 0;
@@ -115,8 +122,34 @@ TileRenderer::Sample TileRenderer::cast(float x, float y) const {
     const float range = options.valueHi - options.valueLo;
     sample.value = range > 0 ? (value - options.valueLo) / range : 0;
   }
-  if (options.edges) sample.edge = edgeDarkness(hit.triangle, weights);
+  if (options.edges) sample.edge = edgeDarkness(triangle, weights);
   return sample;
+}
+
+void TileRenderer::drawSliver(std::uint32_t triangle) {
+  const Triangle& t = mPicture.mesh.triangles[triangle];
+  const std::array<Vec3f, 3> corners{mPicture.mesh.positions[t[0]], mPicture.mesh.positions[t[1]],
+                                     mPicture.mesh.positions[t[2]]};
+  const auto up = static_cast<double>(mPicture.options.height);
+  const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  // Sample i of a row or column lies at (i + 1/2) / kSamplesPerAxis from the tile's border; x runs to the right, rows
+  // run down.
+  const auto toSample = [](double pixels) { return pixels * kSamplesPerAxis - 0.5; };
+  const auto clamped = [&](double sample) { return static_cast<int>(std::clamp(sample, 0.0, double(mSamplesAcross))); };
+  const int firstRow = clamped(std::floor(toSample(up - double(high) - double(mY0))));
+  const int lastRow = clamped(std::ceil(toSample(up - double(low) - double(mY0))) + 1);
+  for (int row = firstRow; row < lastRow; ++row) {
+    const double y = up - double(mY0) - (row + 0.5) / kSamplesPerAxis;
+    const Span span = rowSpan(corners, y);
+    if (!(span.begin < span.end)) continue;
+    const int end = clamped(std::ceil(toSample(span.end - double(mX0))));
+    for (int column = clamped(std::ceil(toSample(span.begin - double(mX0)))); column < end; ++column) {
+      const std::array<float, 3> w = planeWeights(corners, double(mX0) + (column + 0.5) / kSamplesPerAxis, y);
+      const float z = corners[0].z * w[0] + corners[1].z * w[1] + corners[2].z * w[2];
+      Sample& sample = mSamples[column + row * mSamplesAcross];
+      if (!sample.hit || z > sample.z) sample = sampleOf(triangle, w, z);
+    }
+  }
 }
 
 float TileRenderer::edgeDarkness(std::uint32_t triangle, const std::array<float, 3>& weights) const {
@@ -166,7 +199,7 @@ float TileRenderer::openSky(const Vec3f& p, const Vec3f& n, int pattern) const {
   const Vec3f aside = across(n) * (1 / length(across(n))), other = cross(n, aside);
   int open = 0;
   for (const Vec3f& d : kDirections[pattern])
-    open += !mPicture.rays.blocked(origin, aside * d.x + other * d.y + n * d.z, mSkyReach);
+    open += !mPicture.occluders.blocked(origin, aside * d.x + other * d.y + n * d.z, mSkyReach);
   return static_cast<float>(open) / kSkyRays;
 }
 

@@ -6,6 +6,7 @@
 
 #include "pdc/render/render.h"
 #include "rays/ray_scene.h"
+#include "render/slivers.h"
 #include "render/view_mesh.h"
 
 namespace pdc::detail {
@@ -13,7 +14,9 @@ namespace pdc::detail {
 /// Everything tiles of one picture share.
 struct Picture {
   const ViewMesh& mesh;
-  const RayScene& rays;
+  const DividedTriangles& divided;
+  const RayScene& rays;       ///< At the mesh's triangles, or those of `divided.others` where it has any lists.
+  const RayScene& occluders;  ///< The same rays, or those at `divided.occluders`.
   const RenderOptions& options;
   float eyeHeight;  ///< The z from which rays start, above the whole mesh.
 };
@@ -46,7 +49,11 @@ class TileRenderer {
   };
 
   void castSamples();
+  /// Adds the sample of a sliver where it is the nearest.
+  void drawSliver(std::uint32_t triangle);
   [[nodiscard]] Sample cast(float x, float y) const;
+  /// \param weights of the triangle's corners.
+  [[nodiscard]] Sample sampleOf(std::uint32_t triangle, const std::array<float, 3>& weights, float z) const;
   [[nodiscard]] float edgeDarkness(std::uint32_t triangle, const std::array<float, 3>& weights) const;
   void castSky();
   [[nodiscard]] float openSky(const Vec3f& p, const Vec3f& n, int pattern) const;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -27,21 +28,54 @@ struct Stars {
   }
 };
 
+/// Triangles at one vertex whose normals are much alike: that of the first, and the sum of all, weighted by area.
+struct Facet {
+  Vec3f normal, sum{};
+};
+
+/// More triangles than this at a vertex are gathered into facets. Else time would grow with their square.
+constexpr std::uint32_t kManyAround = 256;
+
+/// The facets of each vertex with many triangles.
+std::map<std::uint32_t, std::vector<Facet>> facetsAtHubs(const Stars& stars, std::span<const Vec3f> faceNormals,
+                                                         std::span<const float> areas) {
+  constexpr float kSteps = 32;  // of a coordinate of the normal, from 0 to 1
+  std::map<std::uint32_t, std::vector<Facet>> result;
+  for (std::uint32_t v = 0; v + 2 < stars.first.size(); ++v) {
+    if (stars.first[v + 1] - stars.first[v] <= kManyAround) continue;
+    std::map<std::array<int, 3>, Facet> facets;
+    for (std::uint32_t s = stars.first[v]; s < stars.first[v + 1]; ++s) {
+      const Vec3f& n = faceNormals[stars.around[s]];
+      const auto step = [](float x) { return static_cast<int>(std::round(x * kSteps)); };
+      Facet& facet = facets.try_emplace({step(n.x), step(n.y), step(n.z)}, Facet{n}).first->second;
+      facet.sum += n * areas[stars.around[s]];
+    }
+    for (const auto& [place, facet] : facets) result[v].push_back(facet);
+  }
+  return result;
+}
+
 }  // namespace
 
 Buffer<std::array<Vec3f, 3>> smoothNormals(std::span<const Triangle> triangles, std::span<const Vec3f> faceNormals,
                                            std::span<const float> areas, std::size_t vertexCount) {
   const auto least = static_cast<float>(std::cos(kCreaseDegrees * std::numbers::pi / 180));
   const Stars stars(triangles, vertexCount);
+  const auto hubs = facetsAtHubs(stars, faceNormals, areas);
   Buffer<std::array<Vec3f, 3>> normals(triangles.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
     const Vec3f own = faceNormals[i];
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = triangles[i][k];
       Vec3f sum{};
-      for (std::uint32_t s = stars.first[v]; s < stars.first[v + 1]; ++s) {
-        const std::uint32_t j = stars.around[s];
-        if (dot(own, faceNormals[j]) >= least) sum += faceNormals[j] * areas[j];
+      if (stars.first[v + 1] - stars.first[v] > kManyAround) {
+        for (const Facet& facet : hubs.at(v))
+          if (dot(own, facet.normal) >= least) sum += facet.sum;
+      } else {
+        for (std::uint32_t s = stars.first[v]; s < stars.first[v + 1]; ++s) {
+          const std::uint32_t j = stars.around[s];
+          if (dot(own, faceNormals[j]) >= least) sum += faceNormals[j] * areas[j];
+        }
       }
       // All summed normals are within the angle of the face's own, so only sums without area vanish.
       const float l = length(sum);

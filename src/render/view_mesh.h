@@ -27,7 +27,8 @@ inline constexpr double kCreaseDegrees = 30;
 [[nodiscard]] ViewMesh viewMesh(const Mesh& mesh, const Camera& camera, int width, int height);
 
 /// The corner normals of triangles with these unit normals and areas: at each corner the mean, weighted by area, of the
-/// normals around it that are within kCreaseDegrees of the triangle's own.
+/// normals around it that are within kCreaseDegrees of the triangle's own; at vertices with very many triangles up to a
+/// few degrees.
 [[nodiscard]] Buffer<std::array<Vec3f, 3>> smoothNormals(std::span<const Triangle> triangles,
                                                          std::span<const Vec3f> faceNormals,
                                                          std::span<const float> areas, std::size_t vertexCount);

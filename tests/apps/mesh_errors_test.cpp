@@ -95,7 +95,12 @@ TEST_F(MeshErrors, SeveralGridsWithoutAName) {
 
 TEST_F(MeshErrors, NonFiniteVoxels) {
   writeSphere(mFolder / "nan.vdb", {.nanVoxels = 3, .infiniteVoxels = 2});
-  expectRefusal({mFolder / "nan.vdb"}, kFailed, {"5 voxels", "first at (-10, "});
+  expectRefusal({mFolder / "nan.vdb"}, kFailed, {"5 voxels", "first at (-10, ", "--nan outside"});
+}
+
+TEST_F(MeshErrors, FunctionsThatAreNotFinite) {
+  expectSceneRefusal(kHead + "shape: {formula: {expression: \"sqrt(x) - 0.5\"}}\n",
+                     {"values at lattice points", "the first at (-2, -2, -2) is nan", "--nan outside"});
 }
 
 TEST_F(MeshErrors, NoSurfaceWhereOneIsRequired) {
@@ -190,7 +195,6 @@ TEST_F(MeshErrors, OptionsOfTheOtherKindOfInput) {
   expectRefusal({mBullet, "--voxel-size", "1"}, kUsage, {"--voxel-size", "scenes only"});
   expectRefusal({mBullet, "--resolution", "10"}, kUsage, {"--resolution", "scenes only"});
   expectRefusal({"any.yaml", "--grid", "a"}, kUsage, {"--grid", ".vdb inputs only"});
-  expectRefusal({"any.yaml", "--nan", "outside"}, kUsage, {"--nan", ".vdb inputs only"});
 }
 
 TEST_F(MeshErrors, NoiseGridsThatDoNotFit) {

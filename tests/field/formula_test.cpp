@@ -82,6 +82,20 @@ TEST(Formula, GivesTheSameBitsInAnyThread) {
   EXPECT_EQ(serial, parallel);
 }
 
+TEST(Formula, HasSteps) {
+  const auto at = [](const char* expression, double x) { return formula(expression)->valueAt({x, 0, 0}); };
+  EXPECT_EQ(at("floor(x)", -1.5), -2);
+  EXPECT_EQ(at("ceil(x)", -1.5), -1);
+  EXPECT_EQ(at("round(x)", 2.5), 3);
+  EXPECT_EQ(at("round(x)", -2.5), -3);
+  EXPECT_EQ(at("sign(x)", -0.5), -1);
+  EXPECT_EQ(at("sign(x)", 0), 0);
+  EXPECT_EQ(at("mod(x, 3)", 7.5), 1.5);
+  EXPECT_EQ(at("mod(x, 3)", -1), 2);
+  EXPECT_EQ(at("mod(x, -3)", 1), -2);
+  EXPECT_EQ(at("mod(floor(x), 2) + 1", -3.2), 1);
+}
+
 std::string messageOf(const std::string& expression) {
   try {
     formula(expression);

@@ -181,8 +181,10 @@ TEST(GridField, BoundsOfABoxAnywhereHoldTheVoxelsItTouches) {
 TEST(GridField, NanVoxelsHaveNoValueAndNoPartInBounds) {
   auto grid = FloatGrid::create(1);
   grid->tree().setValue(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
+  grid->tree().setValue(Coord(-2, -2, -2), -std::numeric_limits<float>::infinity());
   grid->tree().setValue(Coord(3, 3, 3), -1);
-  const auto field = gridField(grid, 0, false);
+  const auto field = gridField(grid, 0, false, true);
+  EXPECT_TRUE(std::isnan(field->valueAt({-2, -2, -2})));
   EXPECT_TRUE(std::isnan(field->valueAt({0.5, 0.5, 0.5})));
   EXPECT_EQ(field->valueAt({1, 1, 1}), 1);
   EXPECT_TRUE(std::isnan(field->valueAt({kNan, 0, 0})));
@@ -192,6 +194,30 @@ TEST(GridField, NanVoxelsHaveNoValueAndNoPartInBounds) {
     EXPECT_NEAR(bound.hi, 1, 1e-9);
   }
   EXPECT_FALSE(field->bound({{0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}}).bounded());
+}
+
+TEST(GridField, RefusesVoxelsThatAreNotFinite) {
+  const auto messageOf = [](const openvdb::GridBase::ConstPtr& grid) -> std::string {
+    try {
+      gridField(grid, 0, false);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  auto grid = FloatGrid::create(1);
+  grid->tree().setValue(Coord(5, 6, 7), std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(
+      messageOf(grid),
+      "1 voxel is not finite: at (5, 6, 7) it is nan; --nan outside (acceptNonFinite in C++) takes such values as "
+      "outside");
+  grid->tree().addTile(1, Coord(16, 0, 0), std::numeric_limits<float>::infinity(), false);
+  grid->tree().addTile(3, Coord(-4096, 0, 0), -std::numeric_limits<float>::infinity(), true);
+  grid->tree().addTile(2, Coord(4096, 0, 0), std::numeric_limits<float>::quiet_NaN(), true);
+  EXPECT_EQ(messageOf(grid).substr(0, 69), "4 voxels are not finite, the first at (-4096, 0, 0) is -inf; --nan ou");
+  auto unknown = FloatGrid::create(std::numeric_limits<float>::infinity());
+  unknown->tree().addTile(1, Coord(0, 0, 0), 1, true);
+  EXPECT_EQ(messageOf(unknown), "") << "only the background is not finite";
 }
 
 TEST(GridField, GivesTheSameBitsInAnyThread) {

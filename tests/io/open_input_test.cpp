@@ -83,6 +83,24 @@ TEST_F(OpenInput, NonFiniteVoxelsAreAnErrorUnlessAccepted) {
   EXPECT_FALSE(contour(*openInput(path, {.acceptNonFinite = true}).source).empty());
 }
 
+TEST_F(OpenInput, FunctionsAndGridsOfScenesMustBeFiniteUnlessThatIsAccepted) {
+  const auto spoiled = sphere();
+  spoiled->tree().setValueOn({2, 4, 16}, std::numeric_limits<float>::quiet_NaN());
+  const std::string head = "box: [[-1, -1, -1], [1, 1, 1]]\nresolution: 8\nshape: ";
+  const std::string root = head + "{formula: {expression: sqrt(x) - 0.5}}\n";
+  const std::string inScene = head + "{grid: {file: " + write({spoiled}).filename().string() + "}}\n";
+  const auto errorOfContouring = [&](const std::string& text, const InputOptions& options) {
+    return errorOf([&] { static_cast<void>(contour(*openInput(scene(text), options).source)); });
+  };
+  EXPECT_TRUE(mentions(errorOfContouring(root, {}), "the first at (-1, -1, -1) is nan; --nan outside"));
+  EXPECT_TRUE(mentions(errorOfContouring(inScene, {}), "a.yaml:3:9: 1 voxel is not finite: at (2, 4, 16) it is nan"));
+  for (const std::string& text : {root, inScene}) {
+    EXPECT_EQ(errorOfContouring(text, {.acceptNonFinite = true}), "");
+    EXPECT_EQ(errorOfContouring("nan: outside\n" + text, {}), "");
+    EXPECT_NE(errorOfContouring("nan: error\n" + text, {}), "");
+  }
+}
+
 TEST_F(OpenInput, ASceneSaysItsIsoItsSigmaAndItsFunction) {
   const Input input = openInput(scene());
   EXPECT_EQ(input.iso, 0.125);
@@ -118,11 +136,8 @@ TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
   const auto grid = write({sphere()});
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes only"));
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes only"));
-  const InputOptions forGrids[] = {{.grid = "a"},
-                                   {.acceptNonFinite = true},
-                                   {.hermite = HermiteMode::kGradient},
-                                   {.sigmaGrid = "a"},
-                                   {.weightGrid = "a"}};
+  const InputOptions forGrids[] = {
+      {.grid = "a"}, {.hermite = HermiteMode::kGradient}, {.sigmaGrid = "a"}, {.weightGrid = "a"}};
   for (const InputOptions& options : forGrids)
     EXPECT_TRUE(mentions(errorOfOpening(scene(), options), ".vdb inputs only")) << errorOfOpening(scene(), options);
 }

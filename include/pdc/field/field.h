@@ -46,8 +46,8 @@ class Field {
 
   virtual ~Field() = default;
 
-  /// values[i] = f(p_i). NaN is allowed where the function has no value; the sampler reads it as outside. The array is
-  /// as long as the points' and apart from them.
+  /// values[i] = f(p_i). NaN is allowed where the function has no value; the sampler refuses it, or reads it as outside
+  /// where that is asked for, as it does infinite values. The array is as long as the points' and apart from them.
   virtual void values(PointSpan points, double* values) const = 0;
 
   /// Fills the values that values() gives, bit for bit, and the gradient at each point, in value per world unit. On a

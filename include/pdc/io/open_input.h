@@ -23,12 +23,12 @@ enum class InputKind { kGrid, kScene, kOther };
 
 /// How to read an input. What is empty, false or kAuto is not asked for, and goes with every kind of input.
 struct InputOptions {
-  std::optional<double> iso{};  ///< Finite. Empty: 0 for level sets, 0.5 for fog volumes, what a scene says.
-  bool open = false;            ///< The surface ends where the data ends, instead of being closed.
+  std::optional<double> iso{};   ///< Finite. Empty: 0 for level sets, 0.5 for fog volumes, what a scene says.
+  bool open = false;             ///< The surface ends where the data ends, instead of being closed.
+  bool acceptNonFinite = false;  ///< NaN and infinite values are outside; see GridSourceOptions, FieldSourceOptions.
 
   // For grids only.
   std::optional<std::string> grid{};  ///< As readVdbGrid() takes it. Empty: the only grid that can be contoured.
-  bool acceptNonFinite = false;       ///< NaN and infinite voxels are no error; see GridSourceOptions.
   HermiteMode hermite = HermiteMode::kAuto;
   std::optional<std::string> sigmaGrid{};  ///< A grid of the same file: standard deviation of each value, in its units.
   std::optional<std::string> weightGrid{};  ///< A grid of the same file: how much each value counts beside others.

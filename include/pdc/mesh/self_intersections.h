@@ -31,7 +31,8 @@ struct SelfIntersections {
 /// does a triangle that is there twice. Exact: decided as if the coordinates were real numbers.
 ///
 /// Runs in parallel; the result does not depend on the number of threads. For n triangles of a surface the time is that
-/// of sorting them; n² if the bounding boxes of most pairs overlap. \throws Error if a face names a vertex that does
+/// of sorting them, slivers and any number of triangles at one vertex or edge included; n² if most pairs are so near
+/// each other that boxes, turned to fit slivers, do not separate them. \throws Error if a face names a vertex that does
 /// not exist, or for more than 2^32 - 1 triangles; Cancelled.
 [[nodiscard]] SelfIntersections selfIntersections(const Mesh& mesh, const SelfIntersectionOptions& options = {},
                                                   const Monitor& monitor = {});

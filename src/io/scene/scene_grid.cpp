@@ -14,7 +14,7 @@ FieldPtr readGridShape(const YamlValue& parameters, SceneContext& context) {
   const auto grid = readVdbGrid(context.folder / p["file"].text(), p.has("name") ? p["name"].text() : "");
   // GridSource chooses, so that a grid has the same inside and iso value here as on its own.
   const GridSource source(grid, options);
-  return gridField(grid, source.iso(), source.insideIsHigher());
+  return gridField(grid, source.iso(), source.insideIsHigher(), context.acceptNonFinite);
 }
 
 }  // namespace pdc::detail

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "io/scene/scene_shapes.h"
@@ -40,6 +41,12 @@ double readSigma(const YamlValue& value) {
   return sigma;
 }
 
+bool readAcceptance(const YamlValue& value) {
+  const std::string text = value.text();
+  if (text != "error" && text != "outside") value.failNot("error or outside");
+  return text == "outside";
+}
+
 SceneExpectation readExpectation(const YamlValue& value) {
   const YamlMap p(value, {"euler", "area", "volume", "tolerance"});
   SceneExpectation expect;
@@ -53,18 +60,21 @@ SceneExpectation readExpectation(const YamlValue& value) {
 
 }  // namespace
 
-Scene readScene(const std::filesystem::path& path) {
+Scene readScene(const std::filesystem::path& path, bool acceptNonFinite) {
   const detail::YamlDocument document = detail::readYaml(path);
   const YamlValue self(document, *document.root, "scene");
-  const YamlMap p(self, {"name", "box", "resolution", "voxel_size", "sigma_n", "iso", "expect", "shape"});
+  // What stands under definitions is there for its anchors only.
+  const YamlMap p(
+      self, {"definitions", "name", "box", "resolution", "voxel_size", "sigma_n", "iso", "nan", "expect", "shape"});
   Scene scene;
   if (p.has("name")) scene.name = p["name"].text();
   scene.box = readBox(p["box"]);
   scene.voxelSize = readVoxelSize(self, p, scene.box);
   if (p.has("sigma_n")) scene.sigmaNormal = readSigma(p["sigma_n"]);
   scene.iso = p.number("iso", 0);
+  scene.acceptNonFinite = acceptNonFinite || (p.has("nan") && readAcceptance(p["nan"]));
   if (p.has("expect")) scene.expect = readExpectation(p["expect"]);
-  detail::SceneContext context{.folder = path.parent_path()};
+  detail::SceneContext context{.folder = path.parent_path(), .acceptNonFinite = scene.acceptNonFinite};
   scene.field = detail::readShape(p["shape"], context);
   return scene;
 }

@@ -13,6 +13,7 @@ namespace pdc::detail {
 /// What the shapes of a scene share while it is read.
 struct SceneContext {
   std::filesystem::path folder;  ///< Where relative paths start.
+  bool acceptNonFinite = false;  ///< Whether voxels of grids may be NaN or infinite.
   std::size_t shapes = 0;        ///< Number of shapes read so far; an alias counts each time it is used.
   int depth = 0;                 ///< Number of shapes around the current one.
 };

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <unordered_set>
 
 namespace pdc::detail {
 namespace {
@@ -114,14 +113,32 @@ std::vector<YamlValue> YamlValue::list(std::size_t size) const {
 
 std::vector<std::pair<YamlValue, YamlValue>> YamlValue::entries() const {
   if (mNode->kind != YamlNode::Kind::kMap) failNot("a map");
-  std::vector<std::pair<YamlValue, YamlValue>> result;
-  std::unordered_set<std::string> seen;
-  for (std::size_t i = 0; i + 1 < mNode->children.size(); i += 2) {
-    const std::string key = child(*mNode->children[i], "key").text();
-    result.emplace_back(child(*mNode->children[i], key), child(*mNode->children[i + 1], key));
-    if (!seen.insert(key).second) result.back().first.fail(fmt::format("key \'{}\' is repeated", key));
-  }
+  Entries result;
+  std::unordered_set<std::string> keys;
+  std::unordered_set<const YamlNode*> maps{mNode};
+  addEntries(result, keys, maps);
   return result;
+}
+
+void YamlValue::addEntries(Entries& result, std::unordered_set<std::string>& keys,
+                           std::unordered_set<const YamlNode*>& maps) const {
+  std::unordered_set<std::string> own;
+  std::vector<YamlValue> merged;
+  for (std::size_t i = 0; i + 1 < mNode->children.size(); i += 2) {
+    const YamlNode& keyNode = *mNode->children[i];
+    const std::string name = child(keyNode, "key").text();
+    const YamlValue key = child(keyNode, name), value = child(*mNode->children[i + 1], name);
+    if (!own.insert(name).second) key.fail(fmt::format("key \'{}\' is repeated", name));
+    if (name == "<<" && keyNode.plain) {
+      merged = value.isList() ? value.list() : std::vector{value};
+    } else if (keys.insert(name).second) {
+      result.emplace_back(key, value);
+    }
+  }
+  for (const YamlValue& map : merged) {
+    if (map.mNode->kind != YamlNode::Kind::kMap) map.failNot("a map or a list of maps");
+    if (maps.insert(map.mNode).second) map.addEntries(result, keys, maps);
+  }
 }
 
 YamlMap::YamlMap(const YamlValue& value, std::initializer_list<std::string_view> keys) : mSelf(value) {

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,8 @@ class YamlValue {
   [[nodiscard]] std::vector<YamlValue> list() const;
   /// The items of a list that must have `size` of them.
   [[nodiscard]] std::vector<YamlValue> list(std::size_t size) const;
-  /// The keys, which must not repeat, and values of a map. The values are named by the keys.
+  /// The keys, which must not repeat, and values of a map. The values are named by the keys. A key << stands for the
+  /// entries of a map, or of a list of maps the first of which counts, that are not there otherwise.
   [[nodiscard]] std::vector<std::pair<YamlValue, YamlValue>> entries() const;
 
   /// \throws YamlError "FILE:LINE:COLUMN: what".
@@ -45,6 +47,13 @@ class YamlValue {
   [[noreturn]] void failNot(std::string_view wanted) const;
 
  private:
+  using Entries = std::vector<std::pair<YamlValue, YamlValue>>;
+
+  /// Adds those of the map whose keys are not in `keys`, then those merged into it. \param maps those that are added
+  /// already, of which one may be merged into itself.
+  void addEntries(Entries& result, std::unordered_set<std::string>& keys,
+                  std::unordered_set<const YamlNode*>& maps) const;
+
   [[nodiscard]] YamlValue child(const YamlNode& node, std::string name) const {
     return {*mDocument, node, std::move(name)};
   }

@@ -141,11 +141,20 @@ void describeVoxels(const openvdb::GridBase& grid, VdbGridInfo& info) {
   });
 }
 
-std::string listNames(const VdbFile& file) {
+std::string listNames(const VdbFile& file, bool contourable) {
   std::string list;
   for (const VdbEntry& entry : file.entries())
-    list += fmt::format("{}\"{}\" ({})", list.empty() ? "" : ", ", entry.shownName(), valueType(entry.type));
-  return list.empty() ? "nothing" : list;
+    if (detail::isKnownVdbTree(entry.type) == contourable)
+      list += fmt::format("{}\"{}\" ({})", list.empty() ? "" : ", ", entry.shownName(), valueType(entry.type));
+  return list;
+}
+
+/// The grids that can be contoured, and apart from them the others.
+std::string listNames(const VdbFile& file) {
+  const std::string taken = listNames(file, true), others = listNames(file, false);
+  if (others.empty()) return taken.empty() ? "nothing" : taken;
+  if (taken.empty()) return others;
+  return fmt::format("{}; {} cannot be contoured", taken, others);
 }
 
 const VdbEntry& findEntry(const VdbFile& file, const std::string& name) {

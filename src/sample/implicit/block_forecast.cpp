@@ -40,7 +40,7 @@ double crossingsOf(const BlockSearch& search, const Coord& block) {
   // Blocks share the edges in their upper faces with others.
   constexpr double kOwnShare = double(kBlockSize * kBlockSize) / (kBlockPoints * kBlockPoints);
   BlockSigns signs;
-  sampleSigns(search.field, search.frame, block, signs);
+  sampleSigns(search.field, search.frame, block, signs, nullptr);
   return signs.uniform() ? 0 : kOwnShare * EdgeIndex(signs).size();
 }
 

@@ -52,7 +52,7 @@ std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor)
 }
 
 bool sampleBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
-  sampleSigns(search.field, search.frame, block, signs);
+  sampleSigns(search.field, search.frame, block, signs, search.missing);
   signs.cells = search.open ? cellsWithin(block, search.cells) : CellMask::all();
   return !signs.uniform() && !signs.cells.none();
 }
@@ -60,19 +60,20 @@ bool sampleBlock(const BlockSearch& search, const Coord& block, BlockSigns& sign
 bool searchBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
   const Interval bound = boundOf(search, block, 0);
   if (oneSided(bound)) return false;
-  if (!bound.bounded() && !coarseSignsDiffer(search.field, search.frame, block)) return false;
+  if (!bound.bounded() && !coarseSignsDiffer(search.field, search.frame, block, search.missing)) return false;
   return sampleBlock(search, block, signs);
 }
 
 /// Appends those of `blocks` for which test(block, signs) finds surface, in order.
 template <typename Test, typename Progress>
-void appendSurface(const std::vector<Coord>& blocks, const Monitor& monitor, SurfaceBlocks& surface, Test&& test,
-                   Progress&& progress) {
+void appendSurface(const BlockSearch& search, const std::vector<Coord>& blocks, const Monitor& monitor,
+                   SurfaceBlocks& surface, Test&& test, Progress&& progress) {
   std::vector<BlockSigns> signs(std::min(kChunk, blocks.size()));
   std::vector<std::uint8_t> keep(signs.size());
   for (std::size_t first = 0; first < blocks.size(); first += kChunk) {
     const std::size_t size = std::min(kChunk, blocks.size() - first);
     forEach(size, monitor, [&](std::size_t i) { keep[i] = test(blocks[first + i], signs[i]); });
+    if (search.missing != nullptr) search.missing->throwIfMany();
     for (std::size_t i = 0; i < size; ++i) {
       if (keep[i] == 0) continue;
       surface.coords.push_back(blocks[first + i]);
@@ -133,7 +134,7 @@ void grow(const BlockSearch& search, const Monitor& monitor, SurfaceBlocks& surf
     first = surface.coords.size();
     for (const Coord& block : missing) grown.insert(key(block));
     appendSurface(
-        missing, monitor, surface,
+        search, missing, monitor, surface,
         [&](const Coord& block, BlockSigns& signs) { return sampleBlock(search, block, signs); }, [](double) {});
   }
 }
@@ -162,10 +163,11 @@ SurfaceBlocks findSurfaceBlocks(const BlockSearch& search, const Monitor& monito
   monitor.throwIfStopped();
   SurfaceBlocks surface;
   appendSurface(
-      candidates(search, monitor), monitor, surface,
+      search, candidates(search, monitor), monitor, surface,
       [&](const Coord& block, BlockSigns& signs) { return searchBlock(search, block, signs); }, report);
   const std::size_t found = surface.coords.size();
   grow(search, monitor, surface);
+  if (search.missing != nullptr) search.missing->throwIfAny();
   if (surface.coords.size() > found) sortByCoordinate(surface);
   surface.open = search.open;
   return surface;

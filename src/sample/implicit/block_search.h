@@ -3,6 +3,7 @@
 #include "pdc/field/field.h"
 #include "pdc/sample/hermite_source.h"
 #include "sample/implicit/lattice_frame.h"
+#include "sample/implicit/missing_points.h"
 
 namespace pdc::detail {
 
@@ -12,6 +13,7 @@ struct BlockSearch {
   LatticeFrame frame;
   Coord cells;  ///< The lattice: cells [0, cells) on each axis.
   bool open;    ///< Only cells of the lattice take part; otherwise the field must be outside on and beyond its limits.
+  MissingPoints* missing = nullptr;  ///< Points at which the field is NaN; null: they are outside, and no error.
 };
 
 /// The blocks of the lattice that hold surface, sorted by coordinate: descent from one box over all, then growth across

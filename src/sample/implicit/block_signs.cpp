@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace pdc::detail {
 namespace {
 
 /// Visits every step-th point of the block, z fastest: visit(row 9x + y, z, inside).
 template <int step, typename Visit>
-void sample(const Field& field, const LatticeFrame& frame, const Coord& block, Visit&& visit) {
+void sample(const Field& field, const LatticeFrame& frame, const Coord& block, MissingPoints* missing, Visit&& visit) {
   constexpr int kPerAxis = kBlockSize / step + 1;
   constexpr int kPoints = kPerAxis * kPerAxis * kPerAxis;
   std::array<std::array<double, kPerAxis>, 3> axisPosition;
@@ -26,7 +27,11 @@ void sample(const Field& field, const LatticeFrame& frame, const Coord& block, V
     }
     field.values({x.data(), y.data(), z.data(), size}, values.data());
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t n = static_cast<std::size_t>(first) + i;
+      const int n = first + static_cast<int>(i);
+      if (missing != nullptr && std::isnan(values[i]))
+        missing->add({kBlockSize * block[0] + step * (n / (kPerAxis * kPerAxis)),
+                      kBlockSize * block[1] + step * (n / kPerAxis % kPerAxis),
+                      kBlockSize * block[2] + step * (n % kPerAxis)});
       visit(n / kPerAxis, n % kPerAxis, isInside(values[i]));
     }
   }
@@ -34,17 +39,17 @@ void sample(const Field& field, const LatticeFrame& frame, const Coord& block, V
 
 }  // namespace
 
-void sampleSigns(const Field& field, const LatticeFrame& frame, const Coord& block, BlockSigns& signs) {
+void sampleSigns(const Field& field, const LatticeFrame& frame, const Coord& block, BlockSigns& signs,
+                 MissingPoints* missing) {
   signs.row.fill(0);
-  sample<1>(field, frame, block, [&](std::size_t row, std::size_t z, bool inside) {
+  sample<1>(field, frame, block, missing, [&](int row, int z, bool inside) {
     signs.row[row] = static_cast<std::uint16_t>(signs.row[row] | unsigned{inside} << z);
   });
 }
 
-bool coarseSignsDiffer(const Field& field, const LatticeFrame& frame, const Coord& block) {
+bool coarseSignsDiffer(const Field& field, const LatticeFrame& frame, const Coord& block, MissingPoints* missing) {
   bool anyInside = false, anyOutside = false;
-  sample<4>(field, frame, block,
-            [&](std::size_t, std::size_t, bool inside) { (inside ? anyInside : anyOutside) = true; });
+  sample<4>(field, frame, block, missing, [&](int, int, bool inside) { (inside ? anyInside : anyOutside) = true; });
   return anyInside && anyOutside;
 }
 

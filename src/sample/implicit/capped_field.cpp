@@ -1,6 +1,7 @@
 #include "sample/implicit/capped_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,6 +13,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double slabs(const Box& box, double x, double y, double z) {
   return std::max({box.lo.x - x, x - box.hi.x, box.lo.y - y, y - box.hi.y, box.lo.z - z, z - box.hi.z});
 }
+
+/// Infinite values count as missing: whatever is not finite is outside.
+double finiteOrNaN(double value) { return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN(); }
 
 /// Whether the box decides, not the field. It does where both are zero: no cell beyond the box may hold surface. NaN
 /// stays.
@@ -37,7 +41,7 @@ CappedField::CappedField(FieldPtr field, double iso, const Box& box) : mField(st
 void CappedField::values(PointSpan points, double* values) const {
   mField->values(points, values);
   for (std::size_t i = 0; i < points.size; ++i) {
-    const double value = values[i] - mIso, cap = slabs(mBox, points.x[i], points.y[i], points.z[i]);
+    const double value = finiteOrNaN(values[i]) - mIso, cap = slabs(mBox, points.x[i], points.y[i], points.z[i]);
     values[i] = cuts(cap, value) ? cap : value;
   }
 }
@@ -46,7 +50,7 @@ void CappedField::gradients(PointSpan points, double* values, GradientSpan gradi
   mField->gradients(points, values, gradients);
   for (std::size_t i = 0; i < points.size; ++i) {
     const Vec3d p{points.x[i], points.y[i], points.z[i]};
-    values[i] -= mIso;
+    values[i] = finiteOrNaN(values[i]) - mIso;
     const double cap = slabs(mBox, p.x, p.y, p.z);
     if (!cuts(cap, values[i])) continue;
     const Vec3d g = slabsGradient(mBox, cap, p);

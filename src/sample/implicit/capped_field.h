@@ -5,7 +5,7 @@
 namespace pdc::detail {
 
 /// max(f - iso, d) with d = max over the axes of (lo - p, p - hi): f's solid at an isovalue, cut off sharply at a box.
-/// d is exactly zero on the box. Without a box just f - iso.
+/// d is exactly zero on the box. Without a box just f - iso. NaN wherever f is not finite.
 class CappedField final : public Field {
  public:
   CappedField(FieldPtr field, double iso);

@@ -15,6 +15,7 @@
 #include "sample/implicit/block_search.h"
 #include "sample/implicit/capped_field.h"
 #include "sample/implicit/edge_roots.h"
+#include "sample/implicit/missing_points.h"
 #include "sample/implicit/root_normals.h"
 
 namespace pdc {
@@ -62,8 +63,8 @@ FieldPtr makeLevelField(FieldPtr field, const FieldSourceOptions& options) {
   return std::make_shared<detail::CappedField>(std::move(field), options.iso, cap);
 }
 
-detail::BlockSearch searchOf(const Field& field, const FieldSourceOptions& options) {
-  return {field, frameOf(options), cellCounts(options), options.open};
+detail::BlockSearch searchOf(const Field& field, const FieldSourceOptions& options, detail::MissingPoints* missing) {
+  return {field, frameOf(options), cellCounts(options), options.open, missing};
 }
 
 }  // namespace
@@ -74,16 +75,18 @@ long long voxelsAlong(double side, double voxelSize) {
 }
 
 FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
-    : mField(makeLevelField(std::move(field), options)),
+    : mFunction(field),
+      mField(makeLevelField(std::move(field), options)),
       mOptions(options),
       mMap(Mat3d::diagonal(options.voxelSize, options.voxelSize, options.voxelSize), options.box.lo) {}
 
 SurfaceBlocks FieldSource::surfaceBlocks(const Monitor& monitor) const {
-  return detail::findSurfaceBlocks(searchOf(*mField, mOptions), monitor);
+  detail::MissingPoints missing(*mFunction, frameOf(mOptions), cellCounts(mOptions));
+  return detail::findSurfaceBlocks(searchOf(*mField, mOptions, mOptions.acceptNonFinite ? nullptr : &missing), monitor);
 }
 
 std::optional<SurfaceForecast> FieldSource::forecast(const Monitor& monitor) const {
-  return detail::forecastSurfaceBlocks(searchOf(*mField, mOptions), monitor);
+  return detail::forecastSurfaceBlocks(searchOf(*mField, mOptions, nullptr), monitor);
 }
 
 void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -51,8 +50,8 @@ class LeafSigns {
   using ValueT = typename TreeT::ValueType;
   using Table = LeafTable<TreeT>;
 
-  /// Reads all leaves in parallel. \throws Error for non-finite values that were not accepted.
-  LeafSigns(const Table& table, const ValueReader<ValueT>& reader, bool acceptNonFinite)
+  /// Reads all leaves in parallel.
+  LeafSigns(const Table& table, const ValueReader<ValueT>& reader)
       : mTable(table), mReader(reader), mInside(table.size()), mSide(table.size()) {
     std::atomic<bool> allFinite = true;
     tbb::enumerable_thread_specific<std::vector<std::size_t>> onIso;
@@ -66,11 +65,13 @@ class LeafSigns {
         if (remarks.anyOnIso) onIso.local().push_back(i);
       }
     });
-    if (!allFinite && !acceptNonFinite) rejectNonFinite();
+    mAllFinite = allFinite;
     for (const std::vector<std::size_t>& leaves : onIso) mOnIso.insert(mOnIso.end(), leaves.begin(), leaves.end());
     addPointsBetween();
   }
 
+  /// Whether all values of the leaves are.
+  [[nodiscard]] bool allFinite() const { return mAllFinite; }
   [[nodiscard]] const CellMask& inside(std::size_t leaf) const { return mInside[leaf]; }
   [[nodiscard]] Side side(std::size_t leaf) const { return mSide[leaf]; }
   [[nodiscard]] Side side(const typename Table::Place& place) const {
@@ -135,29 +136,12 @@ class LeafSigns {
     return any == 0 ? Side::kOutside : ~all == 0 ? Side::kInside : Side::kBoth;
   }
 
-  /// \throws Error that counts the voxels that are not finite and names the first.
-  [[noreturn]] void rejectNonFinite() const {
-    const auto finite = [](const ValueT& v) { return ValueReader<ValueT>::finite(v); };
-    std::size_t total = 0;
-    const LeafT* first = &mTable.leaf(0);
-    openvdb::Index offset = 0;
-    for (std::size_t l = 0; l < mTable.size(); ++l)
-      for (openvdb::Index i = 0; i < LeafT::SIZE; ++i) {
-        if (finite(mTable.leaf(l).getValue(i)) || total++ > 0) continue;
-        first = &mTable.leaf(l);
-        offset = i;
-      }
-    const openvdb::Coord at = first->offsetToGlobalCoord(offset);
-    throw Error(fmt::format(
-        "{} voxels are not finite, the first at ({}, {}, {}) is {}; accept them as outside if that is meant", total,
-        at.x(), at.y(), at.z(), static_cast<double>(first->getValue(offset))));
-  }
-
   const Table& mTable;
   const ValueReader<ValueT>& mReader;
   const SimdLevel mLevel = bestSimdLevel();
   Buffer<CellMask> mInside;
   Buffer<Side> mSide;
+  bool mAllFinite = true;
   std::vector<std::size_t> mOnIso;  ///< Leaves with values on the isovalue, in any order.
 };
 

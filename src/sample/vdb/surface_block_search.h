@@ -27,11 +27,10 @@ class SurfaceBlockSearch {
   /// Reads the signs of all leaves. All arguments must outlive this. \throws Error for non-finite values that are not
   /// accepted.
   SurfaceBlockSearch(const TreeT& tree, const Table& table, const Reader& reader, const GridReading& reading)
-      : mTree(tree),
-        mTable(table),
-        mReader(reader),
-        mOpen(reading.open),
-        mLeaves(table, reader, reading.acceptNonFinite) {}
+      : mTree(tree), mTable(table), mReader(reader), mOpen(reading.open), mLeaves(table, reader) {
+    if (reading.acceptNonFinite) return;
+    if (!mLeaves.allFinite() || nonFiniteTiles(tree).count > 0) requireFiniteVoxels(tree);
+  }
 
   /// See HermiteSource::surfaceBlocks().
   [[nodiscard]] SurfaceBlocks find(const Monitor& monitor) const {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
+#include "field/finite_voxels.h"
 #include "math/float_lanes.h"
 #include "sample/vdb/grid_sampler.h"
 
@@ -26,19 +28,14 @@ class ValueReader {
         mIsoIsValue(isValue(r.iso)),
         mIsoValue(mIsoIsValue ? static_cast<ValueT>(r.iso) : ValueT{}) {}
 
+  /// False for values that are not finite.
   [[nodiscard]] bool inside(ValueT v) const {
     const auto d = static_cast<double>(v);
-    return mHigher ? d > mIso : d < mIso;
+    return (mHigher ? d > mIso : d < mIso) && isFiniteValue(v);
   }
   /// Whether a value is the isovalue.
   [[nodiscard]] bool onIso(ValueT v) const { return mIsoIsValue && v == mIsoValue; }
   [[nodiscard]] float value(ValueT v) const { return static_cast<float>(static_cast<double>(v) - mIso) * mSign; }
-
-  /// False for values that must not enter a slope: clamped or not finite.
-  static bool finite(ValueT v) {
-    if constexpr (std::is_floating_point_v<ValueT>) return std::isfinite(v);
-    return true;
-  }
 
   /// value() of `count` values.
   template <int count>
@@ -79,9 +76,9 @@ class ValueReader {
     remarks.anyOnIso = remarks.anyOnIso || (mIsoIsValue && on != 0);
     if (std::is_same_v<ValueT, float> && mIsoIsFloat) {
       if (mHigher) {
-        for (int i = 0; i < 64; ++i) flag[i] = from[i] > iso;
+        for (int i = 0; i < 64; ++i) flag[i] = (from[i] > iso) & (from[i] <= std::numeric_limits<ValueT>::max());
       } else {
-        for (int i = 0; i < 64; ++i) flag[i] = from[i] < iso;
+        for (int i = 0; i < 64; ++i) flag[i] = (from[i] < iso) & (from[i] >= std::numeric_limits<ValueT>::lowest());
       }
     } else {
       for (int i = 0; i < 64; ++i) flag[i] = inside(from[i]);

@@ -155,9 +155,9 @@ TEST(SceneReader, AliasesStandForTheirShapes) {
 
 TEST(SceneReader, SceneErrorsSayWhere) {
   const std::string shape = "shape: {sphere: {radius: 1}}\n", box = "box: [[0, 0, 0], [1, 1, 1]]\n";
-  EXPECT_EQ(
-      errorOfText(box + "resolution: 8\nsize: 3\n" + shape),
-      "s.yaml:3:1: unknown key 'size'; scene takes name, box, resolution, voxel_size, sigma_n, iso, expect, shape");
+  EXPECT_EQ(errorOfText(box + "resolution: 8\nsize: 3\n" + shape),
+            "s.yaml:3:1: unknown key 'size'; scene takes definitions, name, box, resolution, voxel_size, sigma_n, iso, "
+            "nan, expect, shape");
   EXPECT_EQ(errorOfText(box + "resolution: 8\n" + box + shape), "s.yaml:3:1: key 'box' is repeated");
   EXPECT_EQ(errorOfText("resolution: 8\n" + shape), "s.yaml:1:1: box is missing in scene");
   EXPECT_EQ(errorOfText(box + "resolution: 8\n"), "s.yaml:1:1: shape is missing in scene");
@@ -264,6 +264,54 @@ TEST(SceneReader, FilesThatAreNoScenes) {
   EXPECT_EQ(errorOfText("#" + std::string(16 << 20, ' ')), "s.yaml:1:1: larger than 16777216 bytes");
 }
 
+TEST(SceneReader, MergesMaps) {
+  const std::string two = "union:\n- sphere: &a {center: [0.5, 0, 0], radius: 0.25}\n- sphere: ";
+  EXPECT_NEAR(valueOf(two + "{<<: *a, center: [-0.5, 0, 0]}", {-0.5, 0, 0}), -0.25, 1e-12);
+  EXPECT_NEAR(valueOf(two + "{center: [-0.5, 0, 0], <<: *a}", {-0.5, 0, 0}), -0.25, 1e-12) << "later merges too";
+  EXPECT_NEAR(valueOf(two + "{<<: [{radius: 0.125}, *a], center: [-0.5, 0, 0]}", {-0.5, 0, 0}), -0.125, 1e-12)
+      << "the first of a list counts";
+  EXPECT_NEAR(valueOf(two + "{<<: {<<: *a, radius: 0.125}, center: [-0.5, 0, 0]}", {-0.5, 0, 0}), -0.125, 1e-12);
+  EXPECT_NEAR(valueOf(two + "{<<: *a}", {0.5, 0, 0}), -0.25, 1e-12);
+}
+
+TEST(SceneReader, RefusesBadMerges) {
+  EXPECT_EQ(errorOfShape("sphere: {<<: 3}"), "s.yaml:4:16: << must be a map or a list of maps, not '3'");
+  EXPECT_EQ(errorOfShape("sphere: {<<: [{radius: 1}, x]}"), "s.yaml:4:30: << must be a map or a list of maps, not 'x'");
+  EXPECT_EQ(errorOfShape("sphere: {<<: {radius: 1}, <<: {}}"), "s.yaml:4:29: key '<<' is repeated");
+  EXPECT_EQ(errorOfShape("sphere: {<<: {colour: 1}, radius: 1}"),
+            "s.yaml:4:17: unknown key 'colour'; sphere takes center, radius");
+  EXPECT_EQ(errorOfShape("sphere: {\"<<\": {radius: 1}}"),
+            "s.yaml:4:12: unknown key '<<'; sphere takes center, radius");
+}
+
+TEST(SceneReader, AMapMayBeMergedIntoItself) {
+  EXPECT_NEAR(valueOf("sphere: &a {<<: *a, radius: 0.5}", {0, 0, 0}), -0.5, 1e-12);
+  EXPECT_EQ(errorOfShape("sphere: &a {<<: [*a, {<<: [*a, *a]}, *a]}"), "s.yaml:4:11: radius is missing in sphere");
+}
+
+TEST(SceneReader, DefinitionsHoldAnchors) {
+  const std::string text =
+      "definitions:\n  sizes: [&small 0.25]\n  ball: &ball {radius: *small}\n"
+      "box: [[-1, -1, -1], [1, 1, 1]]\nresolution: 8\nshape: {sphere: *ball}\n";
+  EXPECT_NEAR(readText(text).field->valueAt({0, 0, 0}), -0.25, 1e-12);
+}
+
+TEST(SceneReader, SaysWhatIsWrongWithALongFormula) {
+  std::string terms = "x";
+  while (terms.size() < 15'000) terms += " + 0.001*sin(x)";
+  EXPECT_EQ(errorOfShape("formula: {expression: \"" + terms + "\"}"), "no error");
+  const std::string wrong = errorOfShape("formula: {expression: \"" + terms + " + foo(x)\"}");
+  EXPECT_EQ(wrong.substr(0, 21), "s.yaml:4:3: formula \"");
+  EXPECT_NE(wrong.find(" + foo(x)\", position "), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("Unexpected token \"foo\""), std::string::npos) << wrong;
+  EXPECT_LT(wrong.size(), 250u);
+  const std::string tooLong = errorOfShape("formula: {expression: \"" + terms + " + " + terms + "\"}");
+  EXPECT_NE(
+      tooLong.find("The formula has " + std::to_string(2 * terms.size() + 3) + " characters, must have at most 19999"),
+      std::string::npos)
+      << tooLong;
+}
+
 /// The ```yaml blocks of a Markdown file.
 std::vector<std::string> yamlBlocks(const fs::path& file) {
   std::vector<std::string> blocks;
@@ -284,7 +332,7 @@ TEST(SceneReader, ReadsTheExamplesOfItsReadme) {
   fs::create_directory_symlink(fs::path(PDC_SOURCE_DIR) / "tests", folder / "tests");
   const fs::path file = folder.path() / "scenes" / "example.yaml";
   const std::vector<std::string> blocks = yamlBlocks(kScenes / "README.md");
-  EXPECT_EQ(blocks.size(), 1u + 13 + 10);
+  EXPECT_EQ(blocks.size(), 2u + 13 + 10);
   for (const std::string& block : blocks) {
     writeContents(file, block.find("\nshape:") != std::string::npos ? block : withShape(block));
     EXPECT_EQ(errorOf(file), "no error") << block;

@@ -103,13 +103,17 @@ TEST_F(VdbReader, TheOnlyContourableGridNeedsNoName) {
       errorOfReading(path, "colour"),
       path.string() + ": grid \"colour\" of type vec3s cannot be contoured; float, double, int32, int64 and bool can");
   EXPECT_EQ(errorOfReading(path, "none"),
-            path.string() + ": no grid \"none\"; there is \"colour\" (vec3s), \"sphere\" (float)");
+            path.string() + ": no grid \"none\"; there is \"sphere\" (float); \"colour\" (vec3s) cannot be contoured");
   const fs::path onlyColour = write({colour});
   EXPECT_EQ(errorOfReading(onlyColour), path.string() + ": no grid can be contoured; there is \"colour\" (vec3s)");
   const fs::path two = write({grid, variedGrid<openvdb::BoolGrid>("b", false)});
   EXPECT_EQ(
       errorOfReading(two),
       path.string() + ": more than one grid can be contoured; choose one by name: \"sphere\" (float), \"b\" (bool)");
+  EXPECT_EQ(errorOfReading(write({colour, grid, variedGrid<openvdb::BoolGrid>("b", false)})),
+            path.string() +
+                ": more than one grid can be contoured; choose one by name: \"sphere\" (float), \"b\" (bool); "
+                "\"colour\" (vec3s) cannot be contoured");
   const fs::path none = write({});
   EXPECT_TRUE(listVdbGrids(none).empty());
   EXPECT_EQ(errorOfReading(none), path.string() + ": no grid can be contoured; there is nothing");

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -125,7 +126,7 @@ TEST(FieldSource, SteepFlatAndBrokenFunctionsAreBracketed) {
       [=](double x) { return x < root ? -1.0 : kInfinity; },
   };
   for (const auto& f : functions) {
-    const FieldSource source(fieldOfX(f), {.box = kUnitBox, .voxelSize = voxel, .open = true});
+    const FieldSource source(fieldOfX(f), {.box = kUnitBox, .voxelSize = voxel, .open = true, .acceptNonFinite = true});
     const auto found = crossings(source);
     EXPECT_EQ(found.size(), 17u * 17u);
     for (const auto& [edge, crossing] : found) EXPECT_NEAR(crossing.position.x, root, voxel * 0x1p-19);
@@ -155,15 +156,27 @@ TEST(FieldSource, MissingGradientsAreReplacedByDifferences) {
 }
 
 TEST(FieldSource, OneSidedDifferencesAtTheEdgeOfTheDomain) {
-  const auto found = crossings(FieldSource(fieldOfX([](double x) { return x < 0.1 ? 2 * x - 1 : kNan; }),
-                                           {.box = kUnitBox, .voxelSize = 0.25, .open = true}));
+  const auto found =
+      crossings(FieldSource(fieldOfX([](double x) { return x < 0.1 ? 2 * x - 1 : kNan; }),
+                            {.box = kUnitBox, .voxelSize = 0.25, .open = true, .acceptNonFinite = true}));
   EXPECT_FALSE(found.empty());
   for (const auto& [edge, crossing] : found) EXPECT_LE(length(crossing.normal - Vec3d{1, 0, 0}), 1e-6);
 }
 
+TEST(FieldSource, WhatIsNotFiniteIsOutsideWhereAccepted) {
+  for (const double value : {kNan, kInfinity, -kInfinity}) {
+    const auto field = fieldOfX([value](double x) { return x < 0.1 ? -1.0 : value; });
+    const auto found =
+        crossings(FieldSource(field, {.box = kUnitBox, .voxelSize = 0.25, .open = true, .acceptNonFinite = true}));
+    EXPECT_EQ(found.size(), 81u);
+    for (const auto& [edge, crossing] : found) EXPECT_NEAR(crossing.position.x, 0.1, 1e-6);
+  }
+}
+
 TEST(FieldSource, NoNormalIsZero) {
-  const auto found = crossings(FieldSource(fieldOfX([](double x) { return x < 0.1 ? -kInfinity : kInfinity; }),
-                                           {.box = kUnitBox, .voxelSize = 0.25, .open = true}));
+  const auto found =
+      crossings(FieldSource(fieldOfX([](double x) { return x < 0.1 ? -1.0 : kNan; }),
+                            {.box = kUnitBox, .voxelSize = 0.25, .open = true, .acceptNonFinite = true}));
   EXPECT_FALSE(found.empty());
   for (const auto& [edge, crossing] : found) EXPECT_EQ(crossing.normal, (Vec3d{0, 0, 0}));
 }
@@ -302,7 +315,9 @@ TEST(FieldSource, IsoMovesTheSurface) {
 
 TEST(FieldSource, ZeroIsOutsideAndNanIsOutside) {
   const auto empty = [](std::function<double(double)> f) {
-    return FieldSource(fieldOfX(std::move(f)), {.box = kUnitBox, .voxelSize = 0.1}).surfaceBlocks({}).coords.empty();
+    return FieldSource(fieldOfX(std::move(f)), {.box = kUnitBox, .voxelSize = 0.1, .acceptNonFinite = true})
+        .surfaceBlocks({})
+        .coords.empty();
   };
   EXPECT_TRUE(empty([](double) { return 0.0; }));
   EXPECT_TRUE(empty([](double) { return kNan; }));

@@ -334,6 +334,29 @@ TEST_F(GridSourceTest, NonFiniteVoxelsAreNamedOrAccepted) {
   EXPECT_NEAR(r.volume / sphereVolume(10), 1, 0.02);
 }
 
+TEST_F(GridSourceTest, VoxelsThatAreNotFiniteAreOutsideWhateverTheirSign) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float value : {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
+    auto grid = sphere(10, openvdb::Vec3f(0));
+    const std::size_t quads = analyze(contour(GridSource(grid))).quads;
+    grid->tree().setValueOn(openvdb::Coord(20, 20, 20), value);
+    EXPECT_EQ(analyze(contour(GridSource(grid, {.acceptNonFinite = true}))).quads, quads) << "alone, far away";
+    grid->tree().addTile(1, openvdb::Coord(64, 64, 64), value, true);
+    EXPECT_EQ(analyze(contour(GridSource(grid, {.acceptNonFinite = true}))).quads, quads) << "a tile";
+    grid->tree().setValueOn(openvdb::Coord(0, 0, 0), value);
+    EXPECT_EQ(analyze(contour(GridSource(grid, {.acceptNonFinite = true}))).quads, quads + 6) << "a cavity";
+  }
+}
+
+TEST_F(GridSourceTest, TilesThatAreNotFiniteAreRefusedTheBackgroundIsNot) {
+  auto grid = sphere(10, openvdb::Vec3f(0));
+  grid->tree().addTile(1, openvdb::Coord(64, 64, 64), std::numeric_limits<float>::infinity(), false);
+  EXPECT_THROW((void)contour(GridSource(grid)), Error);
+  auto one = FloatGrid::create(std::numeric_limits<float>::infinity());
+  one->tree().addTile(1, openvdb::Coord(0, 0, 0), -1, true);
+  EXPECT_FALSE(contour(GridSource(one, {.hermite = HermiteMode::kGradient})).empty());
+}
+
 TEST_F(GridSourceTest, RefusesIndicesThatWouldOverflow) {
   auto grid = FloatGrid::create(1.0F);
   grid->tree().setValueOn(openvdb::Coord(std::numeric_limits<int>::max() - 3, 0, 0), -1.0F);

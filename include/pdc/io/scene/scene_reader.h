@@ -22,13 +22,16 @@ struct Scene {
   double voxelSize = 0;  ///< In world units, > 0: `voxel_size`, or the longest edge of the box / `resolution`.
   std::optional<double> sigmaNormal;  ///< Standard deviation of the normals' components, >= 0 or infinite.
   double iso = 0;                     ///< The surface is where the field has this value.
+  bool acceptNonFinite = false;       ///< Where the field is not finite it is outside; see FieldSourceOptions.
   FieldPtr field;                     ///< Never null.
   SceneExpectation expect;
 };
 
 /// Reads a scene (YAML; the format is described in scenes/README.md). Relative paths inside are taken from the scene's
 /// folder. \throws Error "FILE:LINE:COLUMN: what" for anything that is not exactly right: unknown or repeated keys,
-/// missing or non-finite or out-of-range parameters, an empty box, files that cannot be read.
-[[nodiscard]] Scene readScene(const std::filesystem::path& path);
+/// missing or non-finite or out-of-range parameters, an empty box, files that cannot be read, grids with voxels that
+/// are not finite and not accepted.
+/// \param acceptNonFinite Scene::acceptNonFinite is true whatever the file says.
+[[nodiscard]] Scene readScene(const std::filesystem::path& path, bool acceptNonFinite = false);
 
 }  // namespace pdc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "pdc/field/field.h"
 #include "pdc/sample/hermite_source.h"
 
@@ -7,6 +9,9 @@ namespace pdc {
 
 /// The most voxels that a FieldSource's lattice may have along an axis.
 inline constexpr int kMaxVoxelsPerAxis = 1 << 20;
+
+/// A FieldSource that has seen more lattice points than this without a finite value looks for no more.
+inline constexpr std::size_t kMostCountedPoints = 10'000'000;
 
 /// Voxels along a side of a FieldSource's box: as many as cover it, but at least one. A side that exceeds a whole
 /// number of voxels by less than 1e-9 voxel has that number. Both lengths in the same unit, finite, voxelSize > 0,
@@ -19,6 +24,9 @@ struct FieldSourceOptions {
   double iso = 0;        ///< The surface is where the field equals this; see isInside() for values on it.
   /// false: the solid is cut off at the box and the mesh is closed. true: the surface ends within a voxel of the box.
   bool open = false;
+  /// false: a function that is NaN or infinite at a lattice point of the box that is looked at is an error. true: it is
+  /// outside there. Lattice points of blocks that bound() excludes are not looked at.
+  bool acceptNonFinite = false;
 };
 
 /// An implicit function on a uniform lattice.
@@ -45,6 +53,7 @@ class FieldSource final : public HermiteSource {
   [[nodiscard]] const FieldPtr& levelField() const { return mField; }
 
  private:
+  FieldPtr mFunction;  ///< What was given.
   FieldPtr mField;
   FieldSourceOptions mOptions;
   LatticeMap mMap;

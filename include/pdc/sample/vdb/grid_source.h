@@ -23,8 +23,8 @@ struct GridSourceOptions {
   /// false: the tree is a function on all of space, tiles and background included, so the surface is closed.
   /// true: only cells whose eight corners are active take part, so the surface ends where activity ends.
   bool open = false;
-  /// false: NaN and infinite voxels are an error. true: NaN and +inf are outside, -inf is inside (with the grid's sense
-  /// of inside), and none of them is used for a normal.
+  /// false: NaN and infinite voxels are an error, wherever in the tree they are stored. true: they are outside, and
+  /// none is used for a normal. A background that is not finite is outside without being asked for.
   bool acceptNonFinite = false;
   HermiteMode hermite = HermiteMode::kAuto;
   /// Standard deviation of each value, in its own units, >= 0; null if nothing is known. Like the grid it is a function
