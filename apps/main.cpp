@@ -12,6 +12,7 @@
 #include "commands/mesh_command.h"
 #include "commands/render_command.h"
 #include "commands/sweep_command.h"
+#include "parallel/machine_memory.h"
 #include "pdc/error.h"
 #include "terminal/huge_heap.h"
 #include "terminal/interrupt.h"
@@ -81,7 +82,7 @@ int main(int argc, char** argv) {
     std::fputs(pdc::kInterruptedMessage.data(), stderr);
     return pdc::kInterruptedExitCode;
   } catch (const std::bad_alloc&) {
-    return fail(kFailed, "out of memory");
+    return fail(kFailed, "out of memory: " + pdc::detail::memoryFigures());
   } catch (const std::exception& e) {
     return fail(kFailed, e.what());
   }

@@ -1,5 +1,7 @@
 #include "parallel/machine_memory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -50,5 +52,10 @@ std::size_t memoryInUse() { return kibibytesOf("/proc/self/status", "VmRSS:"); }
 std::size_t peakMemory() { return kibibytesOf("/proc/self/status", "VmHWM:"); }
 
 std::size_t availableMemory() { return std::min(kibibytesOf("/proc/meminfo", "MemAvailable:"), leftInGroups()); }
+
+std::string memoryFigures() {
+  constexpr std::size_t kMega = 1'000'000;
+  return fmt::format("{} MB were in use, {} MB are left", peakMemory() / kMega, availableMemory() / kMega);
+}
 
 }  // namespace pdc::detail

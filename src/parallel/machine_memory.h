@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 /// What the system says of memory, in bytes. Linux's /proc and control groups; each is 0 where it is not said.
 namespace pdc::detail {
@@ -12,5 +13,8 @@ namespace pdc::detail {
 [[nodiscard]] std::size_t peakMemory();
 /// What it may still take before the machine, or the control group it runs in, has no more.
 [[nodiscard]] std::size_t availableMemory();
+
+/// "4096 MB were in use, 12 MB are left", for errors.
+[[nodiscard]] std::string memoryFigures();
 
 }  // namespace pdc::detail

@@ -15,6 +15,7 @@
 #include "io/parse/ply_reader.h"
 #include "io/parse/stl_reader.h"
 #include "mesh/concave_quads.h"
+#include "parallel/machine_memory.h"
 #include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc {
@@ -83,7 +84,7 @@ Mesh readMesh(const std::filesystem::path& path, const MeshReadOptions& options)
   } catch (const Error& error) {
     throw detail::fileError(path, error.what());
   } catch (const std::bad_alloc&) {
-    throw detail::fileError(path, "does not fit into memory");
+    throw detail::fileError(path, "does not fit into memory: " + detail::memoryFigures());
   }
 }
 

@@ -13,6 +13,7 @@
 #include "io/vdb/vdb_file.h"
 #include "io/vdb/vdb_grid.h"
 #include "io/vdb/vdb_tree_check.h"
+#include "parallel/machine_memory.h"
 #include "sample/vdb/contourable_grids.h"
 
 namespace pdc {
@@ -29,7 +30,7 @@ auto withFileName(const std::filesystem::path& path, Action&& action) {
     openvdb::initialize();
     return action();
   } catch (const std::bad_alloc&) {
-    throw detail::fileError(path, "does not fit into memory");
+    throw detail::fileError(path, "does not fit into memory: " + detail::memoryFigures());
   } catch (const std::exception& error) {
     throw detail::fileError(path, error.what());
   }
