@@ -61,7 +61,7 @@ std::string damaged(const char* name, std::string file, const Solid& solid, Dice
     case 0:
       return "<!DOCTYPE html>\n<html><body>404: Not Found</body></html>\n";
     case 1:
-      return file.substr(0, dice.below(20));
+      return "\x89PNG\r\n" + file;
     case 2: {
       std::string wide;
       for (const char c : file) wide += {c, '\0'};
@@ -86,8 +86,8 @@ TEST(MeshDialects, DamagedOnesAreErrorsInOneLine) {
     const TemporaryFolder folder;
     writeContents(folder / dialect.name, file);
     try {
-      const Mesh mesh = readMesh(folder / dialect.name);
-      EXPECT_TRUE(mesh.empty()) << "seed " << seed << testing::PrintToString(file);
+      static_cast<void>(readMesh(folder / dialect.name));
+      ADD_FAILURE() << "seed " << seed << " was read: " << testing::PrintToString(file);
     } catch (const Error& error) {
       const std::string message = error.what();
       EXPECT_EQ(message.find('\n'), std::string::npos);
