@@ -62,10 +62,12 @@ Hubs HubSearch::run(std::span<const std::uint32_t> triangles, std::uint32_t besi
     });
     number(triangles, hubs);
   }
-  forEachIn(triangles, [&](std::size_t i) {
-    for (const std::uint32_t v : triangle(mMesh, triangles[i]))
-      std::atomic_ref(mCounts[v]).store(0, std::memory_order_relaxed);
-  });
+  if (triangles.size() >= mCounts.size()) {
+    std::fill(mCounts.begin(), mCounts.end(), 0U);
+  } else {
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t v : triangle(mMesh, t)) mCounts[v] = 0;
+  }
   return hubs;
 }
 

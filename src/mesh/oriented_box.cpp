@@ -98,8 +98,10 @@ OrientedBox::Axes axesAlong(const TriangleCorners& t) {
 
 bool isSliver(const TriangleCorners& t) {
   constexpr double kSlender = 16;
-  const LongestEdge longest(t);
-  return length(longest.normal) * kSlender < longest.squaredLength;
+  const Vec3d a = vecCast<double>(t[0]), p = vecCast<double>(t[1]) - a, q = vecCast<double>(t[2]) - a, r = q - p;
+  const Vec3d normal = cross(p, q);
+  const double longest = std::max({dot(p, p), dot(q, q), dot(r, r)});
+  return dot(normal, normal) * kSlender * kSlender < longest * longest;
 }
 
 }  // namespace pdc::detail

@@ -6,7 +6,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <cmath>
-#include <compare>
 #include <functional>
 #include <utility>
 
@@ -21,7 +20,10 @@ constexpr std::size_t kGrain = 4096;
 struct Item {
   std::uint64_t key;
   std::uint32_t hub, triangle;
-  friend auto operator<=>(const Item&, const Item&) = default;
+  friend bool operator<(const Item& a, const Item& b) {
+    if (a.key != b.key) return a.key < b.key;
+    return a.hub != b.hub ? a.hub < b.hub : a.triangle < b.triangle;
+  }
 };
 using Items = std::span<Item>;
 

@@ -44,12 +44,7 @@ class TriangleTree {
   /// all triangles of both are at one hub. The order depends on the tree only.
   template <typename Visit>
   bool visitNeighbours(std::size_t i, Visit&& visit) const {
-    const BoxF& box = mLevels.front()[i];
-    const SliverNode* sliver = sliverNode(0, i);
-    if (sliver != nullptr || mSlivers.empty() || mSlivers.front().nodes.empty())
-      return visitBelow(mLevels.size() - 1, 0, {i, box, sliver}, visit);
-    const SliverNode plain{OrientedBox(box), kNoHub};
-    return visitBelow(mLevels.size() - 1, 0, {i, box, &plain}, visit);
+    return visitBelow(mLevels.size() - 1, 0, {i, mLevels.front()[i], sliverNode(0, i)}, visit);
   }
 
   /// Calls visit(triangle) for all triangles that may be nearer to p than the square root of `reach`, which the visitor
@@ -88,7 +83,7 @@ class TriangleTree {
   struct Query {
     std::size_t leaf;
     const BoxF& box;
-    const SliverNode* sliver;  ///< Null where there are no slivers.
+    const SliverNode* sliver;  ///< Null for a leaf without slivers.
   };
 
   [[nodiscard]] static std::span<const std::uint32_t> part(const Buffer<std::uint32_t>& all, std::size_t leaf) {
@@ -104,6 +99,7 @@ class TriangleTree {
     if (!mLevels[level][node].meets(query.box)) return false;
     const SliverNode* sliver = sliverNode(level, node);
     if (sliver == nullptr) return true;
+    if (query.sliver == nullptr) return !sliver->box.apartFrom(OrientedBox(query.box));
     if (sliver->hub != kNoHub && sliver->hub == query.sliver->hub) return false;
     return !sliver->box.apartFrom(query.sliver->box);
   }

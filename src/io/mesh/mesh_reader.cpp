@@ -14,7 +14,7 @@
 #include "io/parse/off_reader.h"
 #include "io/parse/ply_reader.h"
 #include "io/parse/stl_reader.h"
-#include "mesh/concave_quads.h"
+#include "mesh/polygons/concave_quads.h"
 #include "parallel/machine_memory.h"
 #include "pdc/mesh/triangulate_polygons.h"
 

@@ -1,4 +1,4 @@
-#include "mesh/ear_clipping.h"
+#include "mesh/polygons/ear_clipping.h"
 
 #include <gtest/gtest.h>
 

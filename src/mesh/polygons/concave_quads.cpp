@@ -1,4 +1,4 @@
-#include "mesh/concave_quads.h"
+#include "mesh/polygons/concave_quads.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -10,7 +10,7 @@
 
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
-#include "mesh/pair_search.h"
+#include "mesh/intersections/pair_search.h"
 #include "mesh/triangle_pair.h"
 #include "pdc/error.h"
 

@@ -1,4 +1,4 @@
-#include "mesh/concave_quads.h"
+#include "mesh/polygons/concave_quads.h"
 
 #include <gtest/gtest.h>
 

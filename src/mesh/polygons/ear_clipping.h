@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/corner_grid.h"
+#include "mesh/polygons/corner_grid.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {

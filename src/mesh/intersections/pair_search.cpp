@@ -1,4 +1,4 @@
-#include "mesh/pair_search.h"
+#include "mesh/intersections/pair_search.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mesh/faces.h"
-#include "mesh/stand_ins.h"
+#include "mesh/intersections/stand_ins.h"
 
 namespace pdc::detail {
 namespace {
@@ -32,7 +32,7 @@ struct PairSearch::Leaf {
   std::array<BoxF, TriangleTree::kLeaf> boxes;  ///< Those of the shapes.
 
   Leaf(const PairSearch& search, std::size_t leaf) : hubs(search.mTree.leafHubs(leaf)) {
-    const SearchedShapes& shapes = search.mShapes;
+    const SearchedShapes shapes = search.mShapes;  // A copy, which the loop cannot change.
     const auto inTree = search.mTree.leaf(leaf);
     size = inTree.size();
     for (std::size_t i = 0; i < size; ++i) {

@@ -3,7 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "mesh/ear_clipping.h"
+#include "mesh/polygons/ear_clipping.h"
 #include "mesh/mesh_checks.h"
 
 namespace pdc {

@@ -1,4 +1,4 @@
-#include "mesh/stand_ins.h"
+#include "mesh/intersections/stand_ins.h"
 
 #include <cmath>
 

@@ -14,7 +14,7 @@
 #include <tuple>
 
 #include "mesh/connectivity.h"
-#include "mesh/ear_clipping.h"
+#include "mesh/polygons/ear_clipping.h"
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 
