@@ -55,6 +55,8 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   if (input.refusedNoise > 0)
     warn(run,
          fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
+  for (const std::string& warning : input.warnings) warn(run, warning);
+  run.meaning = input.meaning;
   run.iso = input.iso;
   run.planeOrigin = input.planeOrigin;
   run.valueNoise = input.valueNoise;
@@ -72,12 +74,29 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   return mesh;
 }
 
+const char* phraseOf(DecidedBy by) {
+  switch (by) {
+    case DecidedBy::kFile:
+      return "says the file";
+    case DecidedBy::kType:
+      return "by its type";
+    case DecidedBy::kValues:
+      return "by its values";
+    case DecidedBy::kCaller:
+      return "as asked";
+  }
+  return "";
+}
+
 void printSummary(const MeshRequest& request, const MeshRun& run) {
   const std::size_t open = run.contour.boundaryEdges;
   const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
   fmt::print("{}: {} vertices, {} {}, {}; {} bytes\n", request.output.string(), run.vertices,
              run.options.triangles ? run.triangles : run.quads, run.options.triangles ? "triangles" : "quads", boundary,
              run.bytesWritten);
+  if (run.meaning)
+    fmt::print("a {} ({}), {} values inside ({})\n", nameOf(run.meaning->gridClass), phraseOf(run.meaning->classBy),
+               nameOf(run.meaning->inside), phraseOf(run.meaning->insideBy));
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (run.contour.creasePatches > 0)

@@ -18,6 +18,8 @@ const Choices<Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
 const Choices<HermiteMode> kHermiteModes{
     {"auto", HermiteMode::kAuto}, {"gradient", HermiteMode::kGradient}, {"distance", HermiteMode::kDistance}};
+const Choices<GridClass> kGridClasses{{"level-set", GridClass::kLevelSet}, {"fog", GridClass::kFogVolume}};
+const Choices<InsideValues> kInsides{{"low", InsideValues::kLow}, {"high", InsideValues::kHigh}};
 const Choices<bool> kNonFiniteModes{{"error", false}, {"outside", true}};
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
@@ -63,6 +65,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
             "beside creases, distances; auto: distances if the grid has them")
       ->type_name("MODE")
       ->group(grids);
+  addGridMeaning(command, request, grids);
   addNoiseGrids(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
@@ -99,6 +102,9 @@ InputOptions MeshRequest::inputOptions() const {
           .grid = grid,
           .acceptNonFinite = acceptNonFinite.value_or(false),
           .hermite = hermite.value_or(HermiteMode::kAuto),
+          .gridClass = gridClass,
+          .inside = inside,
+          .floodFill = floodFill,
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
           .voxelSize = voxelSize,
@@ -122,6 +128,20 @@ std::string placementName(Placement placement) {
 
 CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help) {
   return addChoice(command, "--placement", target, kPlacements, help)->type_name("WHERE");
+}
+
+void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group) {
+  addChoice(command, "--class", request.gridClass, kGridClasses,
+            "What the values are (the grid's class, or as they look)")
+      ->type_name("CLASS")
+      ->group(group);
+  addChoice(command, "--inside", request.inside, kInsides, "Which values are inside (low in level sets, high in fogs)")
+      ->type_name("SIDE")
+      ->group(group);
+  command
+      .add_flag("--flood-fill", request.floodFill,
+                "Inactive values become inside or outside, as the active\nones of a level set beside them are")
+      ->group(group);
 }
 
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
@@ -161,6 +181,9 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
       refuseOther(request.acceptNonFinite.has_value(), "--nan", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
+      refuseOther(request.gridClass.has_value(), "--class", ".vdb inputs");
+      refuseOther(request.inside.has_value(), "--inside", ".vdb inputs");
+      refuseOther(request.floodFill, "--flood-fill", ".vdb inputs");
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       break;

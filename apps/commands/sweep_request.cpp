@@ -67,6 +67,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addPlacement(command, mesh.placement, "Where vertices may lie (certified), as for pdc mesh");
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
+  addGridMeaning(command, mesh, "OPTIONS");
   addNoiseGrids(command, mesh, "OPTIONS");
   command
       .add_option("--reference", request.reference,

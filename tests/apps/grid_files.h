@@ -13,7 +13,9 @@ struct SphereFile {
   /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "moved", of
   /// another transform; "faulty", -1 there.
   bool noiseGrids = false;
-  double offset = 0;  ///< Moves the centre along x, through the grid's transform.
+  bool positiveInside = false;  ///< All values have the other sign; the class stays.
+  bool floodFilled = true;      ///< False: all inactive values are the background.
+  double offset = 0;            ///< Moves the centre along x, through the grid's transform.
 };
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content = {});

@@ -142,6 +142,43 @@ TEST_F(MeshCommand, IsoOutsideOfTheValuesWarnsAndGivesAnEmptyMesh) {
   EXPECT_TRUE(std::filesystem::exists(mOutput));
 }
 
+TEST_F(MeshCommand, HowAGridIsReadIsSaid) {
+  const Json report = contour({bulletGrid()});
+  EXPECT_EQ(report["grid"]["class"], "level set");
+  EXPECT_EQ(report["grid"]["class_decided_by"], "file");
+  EXPECT_EQ(report["grid"]["inside"], "low");
+  EXPECT_EQ(report["grid"]["inside_decided_by"], "file");
+  EXPECT_NEAR(report["grid"]["half_width_voxels"], 3, 0.2);
+  EXPECT_NE(mOutcome.out.find("a level set (says the file), low values inside (says the file)"), std::string::npos);
+  EXPECT_TRUE(contour({demoScene(), "--resolution", "20"})["grid"].is_null());
+}
+
+TEST_F(MeshCommand, ClassAndSideReachTheGrid) {
+  const Json report = contour({bulletGrid(), "--class", "level-set", "--inside", "high", "--iso", "0.001"});
+  EXPECT_EQ(report["grid"]["class_decided_by"], "caller");
+  EXPECT_EQ(report["grid"]["inside"], "high");
+  EXPECT_LT(analyze(readMesh(mOutput)).volume, 0);
+  EXPECT_EQ(contour({bulletGrid(), "--class", "fog", "--iso", "0"})["grid"]["class"], "fog volume");
+}
+
+TEST_F(MeshCommand, AWrongSideIsAWarningWithItsRemedy) {
+  writeSphere(mFolder / "turned.vdb", {.positiveInside = true});
+  const Json report = contour({mFolder / "turned.vdb"});
+  ASSERT_EQ(report["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("--inside high"), std::string::npos) << mOutcome.err;
+  EXPECT_EQ(report["grid"]["inside_decided_by"], "values");
+  EXPECT_NEAR(analyze(readMesh(mOutput)).volume, 4.0 / 3.0 * M_PI, 0.01 * 4.0 / 3.0 * M_PI);
+}
+
+TEST_F(MeshCommand, AFalseSheetIsAWarningAndCanBeFilled) {
+  writeSphere(mFolder / "open.vdb", {.floodFilled = false});
+  EXPECT_EQ(contour({mFolder / "open.vdb"})["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("--flood-fill"), std::string::npos) << mOutcome.err;
+  EXPECT_EQ(analyze(readMesh(mOutput)).components, 2U);
+  EXPECT_TRUE(contour({mFolder / "open.vdb", "--flood-fill"})["warnings"].empty());
+  EXPECT_EQ(analyze(readMesh(mOutput)).components, 1U);
+}
+
 TEST_F(MeshCommand, NonFiniteVoxelsCountAsOutsideOnRequest) {
   writeSphere(mFolder / "nan.vdb", {.nanVoxels = 3, .infiniteVoxels = 2});
   contour({mFolder / "nan.vdb", "--nan", "outside"});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "io/scene/scene_shapes.h"
@@ -66,6 +67,7 @@ Scene readScene(const std::filesystem::path& path) {
   if (p.has("expect")) scene.expect = readExpectation(p["expect"]);
   detail::SceneContext context{.folder = path.parent_path()};
   scene.field = detail::readShape(p["shape"], context);
+  scene.warnings = std::move(context.warnings);
   return scene;
 }
 

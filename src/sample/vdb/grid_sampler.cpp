@@ -16,7 +16,8 @@ namespace {
 SlopeLimits slopeLimits(const GridReading& reading) {
   constexpr double kMostClamp = 1e38;  // A slope of larger values may not fit into single precision.
   const double clamp = std::min(reading.clamp, kMostClamp);
-  const double low = -clamp - reading.iso, high = clamp - reading.iso;
+  const double iso = reading.insideIsHigher ? -reading.iso : reading.iso;
+  const double low = -clamp - iso, high = clamp - iso;
   return {static_cast<float>(low + 1e-6 * std::abs(low)), static_cast<float>(high - 1e-6 * std::abs(high))};
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pdc/field/field.h"
 
@@ -24,6 +25,7 @@ struct Scene {
   double iso = 0;                     ///< The surface is where the field has this value.
   FieldPtr field;                     ///< Never null.
   SceneExpectation expect;
+  std::vector<std::string> warnings;  ///< Where a grid's values may mean something else: a line each.
 };
 
 /// Reads a scene (YAML; the format is described in scenes/README.md). Relative paths inside are taken from the scene's
