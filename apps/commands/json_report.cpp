@@ -59,6 +59,8 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"blocks", run.contour.blocks},
           {"crossings", run.contour.crossings},
           {"crossings_without_normal", run.contour.crossingsWithoutNormal},
+          {"vertices_on_box", run.verticesOnBox},
+          {"crossings_without_data", run.crossingsWithoutData},
           {"clamped_vertices", run.contour.clamped},
           {"out_of_cell_vertices", run.contour.outOfCell},
           {"multi_vertex_cells", run.contour.multiVertexCells},

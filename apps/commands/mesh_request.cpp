@@ -150,7 +150,9 @@ void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& g
                   "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+  command
+      .add_option("--weight-grid", request.weightGrid,
+                  "Grid of the same file: how much each value counts;\n0 is no data, where --open ends the surface")
       ->type_name("NAME")
       ->group(group);
 }

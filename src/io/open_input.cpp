@@ -79,6 +79,7 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
   input.planeOrigin = source->usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
   input.valueNoise = source->valueNoise();
   input.refusedNoise = source->refusedNoise();
+  input.crossingsWithoutData = source->crossingsWithoutData();
   input.meaning = source->meaning();
   input.warnings = detail::gridWarnings(source->meaning(), detail::OptionStyle::kProgram);
   input.whyEmpty = [path, name = grid->getName(), iso = input.iso] { return whyGridIsEmpty(path, name, iso); };
@@ -104,6 +105,7 @@ Input openScene(const fs::path& path, const InputOptions& options) {
       scene.field,
       FieldSourceOptions{.box = scene.box, .voxelSize = voxelSize, .iso = input.iso, .open = options.open});
   input.field = source->levelField();
+  if (!options.open) input.cut = scene.box;
   input.planeOrigin = PlaneOrigin::kFunction;
   input.whyEmpty = [iso = input.iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); };
   input.source = std::move(source);

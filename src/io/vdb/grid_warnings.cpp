@@ -13,33 +13,29 @@ class Lines {
     switch (doubt) {
       case GridDoubt::kPositiveInside:
         return fmt::format(
-            "the level set's background and all its outermost values are negative, so it is taken as positive inside, "
-            "as "
-            "with {}; {} if everything around is solid",
+            "the level set's background and all its outermost values are negative, so it is taken as positive "
+            "inside, as with {}; {} if everything around is solid",
             option("inside", "high"), option("inside", "low"));
       case GridDoubt::kOutermostInside:
         return fmt::format(
             "all outermost values are inside but what is around them is not, so there is a false sheet where the "
-            "values "
-            "end; {} if values are positive inside{}",
-            option("inside", "high"), orEndThere());
+            "values end; {} if values are positive inside{}",
+            option("inside", "high"), inProgram("; --flood-fill closes a solid, --open ends a scan's surface there"));
       case GridDoubt::kSideUnclear:
         return fmt::format(
-            "neither the background nor the outermost values say which side is outside; {} values are taken as inside, "
-            "{} sets it",
+            "neither the background nor the outermost values say which side is outside; {} values are taken as "
+            "inside, {} sets it",
             nameOf(mMeaning.inside), option("inside", "low|high"));
       case GridDoubt::kClassUnclear:
         return fmt::format(
             "the grid has no class, and its values, {:.6g} to {:.6g}, are no distances with a sign; it is taken as a "
-            "{} "
-            "at iso {:.6g}, {} and {} set it",
+            "{} at iso {:.6g}, {} and {} set it",
             mMeaning.lowest, mMeaning.highest, nameOf(mMeaning.gridClass), mMeaning.iso,
             option("class", "level-set|fog"), option("iso", "V"));
       case GridDoubt::kIsoGuessed:
         return fmt::format(
-            "the grid has no class, and its values, {:.6g} to {:.6g}, do not say where the surface is; it is taken as "
-            "a "
-            "fog volume at iso {:.6g}, {} sets it",
+            "the grid has no class, and its values, {:.6g} to {:.6g}, do not say where the surface is; it is taken "
+            "as a fog volume at iso {:.6g}, {} sets it",
             mMeaning.lowest, mMeaning.highest, mMeaning.iso, option("iso", "V"));
       case GridDoubt::kUnsigned:
         return fmt::format(
@@ -53,12 +49,14 @@ class Lines {
                            option("class", "level-set"));
       case GridDoubt::kNotFloodFilled:
         return fmt::format("the values end inside beside inactive ones that are outside, so there is a false sheet{}",
-                           orEndThere());
+                           inProgram("; --flood-fill closes a solid, --open ends a scan's surface there"));
+      case GridDoubt::kCutAtEnd:
+        return fmt::format("the solid reaches where the values end and is closed there{}",
+                           inProgram("; --open leaves it open"));
       case GridDoubt::kIsoNearBandEnd:
         return fmt::format(
             "iso {:.6g} is less than a voxel from where the values end, so the surface may be half a voxel off; take "
-            "an "
-            "{} nearer to 0 or a wider band",
+            "an {} nearer to 0 or a wider band",
             mMeaning.iso, option("iso", "V"));
       case GridDoubt::kNarrowBand:
         return fmt::format(
@@ -74,9 +72,7 @@ class Lines {
     return mStyle == OptionStyle::kProgram ? fmt::format("--{} {}", name, value) : fmt::format("{}: {}", name, value);
   }
   /// What goes with grids that are contoured by themselves only.
-  [[nodiscard]] std::string orEndThere() const {
-    return mStyle == OptionStyle::kProgram ? "; --flood-fill closes a solid, --open ends a scan's surface there" : "";
-  }
+  [[nodiscard]] const char* inProgram(const char* text) const { return mStyle == OptionStyle::kProgram ? text : ""; }
 
   const GridMeaning& mMeaning;
   OptionStyle mStyle;

@@ -74,8 +74,10 @@ class ActiveValues {
     return range;
   }
 
-  /// Appends the finite values of the last layer across `axis` that has any, or of the first one.
-  void outermost(int axis, bool last, std::vector<double>& values) const {
+  /// Appends the finite values of the last layer across `axis` that has any, or of the first one, where counts(coord)
+  /// says so.
+  template <typename Counts>
+  void outermost(int axis, bool last, const Counts& counts, std::vector<double>& values) const {
     const int sign = last ? 1 : -1;
     const auto farSide = [&](const openvdb::CoordBBox& box) {
       return std::int64_t{sign} * (last ? box.max() : box.min())[axis];
@@ -92,10 +94,11 @@ class ActiveValues {
       limit = end;
     }
     for (const Tile& tile : mTiles)
-      if (farSide(tile.box) == reach && std::isfinite(tile.value)) values.push_back(tile.value);
+      if (farSide(tile.box) == reach && std::isfinite(tile.value) && counts(tile.box.min()))
+        values.push_back(tile.value);
     for (const Leaf& leaf : mLeaves) {
       const std::int64_t layer = sign * reach - leaf.origin[axis];
-      if (layer >= 0 && layer < kSide) appendLayer(*leaf.node, axis, static_cast<int>(layer), values);
+      if (layer >= 0 && layer < kSide) appendLayer(*leaf.node, axis, static_cast<int>(layer), counts, values);
     }
   }
 
@@ -144,10 +147,11 @@ class ActiveValues {
     }
     return kNowhere;
   }
-  static void appendLayer(const LeafT& leaf, int axis, int layer, std::vector<double>& values) {
+  template <typename Counts>
+  static void appendLayer(const LeafT& leaf, int axis, int layer, const Counts& counts, std::vector<double>& values) {
     visitLayer(leaf, axis, layer, [&](openvdb::Index offset) {
       const auto v = static_cast<double>(leaf.getValue(offset));
-      if (std::isfinite(v)) values.push_back(v);
+      if (std::isfinite(v) && counts(leaf.offsetToGlobalCoord(offset))) values.push_back(v);
       return false;
     });
   }

@@ -1,6 +1,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
+#include <functional>
 #include <type_traits>
 #include <utility>
 
@@ -106,9 +107,21 @@ class LeafSample {
   std::array<std::array<std::size_t, 2>, 2> mEnds{};
 };
 
+using Counts = std::function<bool(const openvdb::Coord&)>;
+
+/// Says of points whether their weight is above zero.
+Counts hasWeight(const openvdb::GridBase* weight) {
+  Counts counts = [](const openvdb::Coord&) { return true; };
+  if (weight == nullptr) return counts;
+  visitContourable(*weight, [&](const auto& typed) {
+    counts = [accessor = typed.getConstAccessor()](const openvdb::Coord& c) { return accessor.getValue(c) > 0; };
+  });
+  return counts;
+}
+
 template <typename TreeT>
 void gatherFromTree(const TreeT& tree, const LatticeMap& map, const std::optional<GridClass>& known,
-                    GridEvidence& evidence) {
+                    const Counts& counts, GridEvidence& evidence) {
   using LeafT = typename TreeT::LeafNodeType;
   const ActiveValues<TreeT> values(tree);
   const std::vector<const LeafT*> some = values.someLeaves(kSampledLeaves);
@@ -129,13 +142,13 @@ void gatherFromTree(const TreeT& tree, const LatticeMap& map, const std::optiona
   evidence.low = range.low;
   evidence.high = range.high;
   for (int axis = 0; axis < 3; ++axis)
-    for (const bool last : {false, true}) values.outermost(axis, last, evidence.outermost);
+    for (const bool last : {false, true}) values.outermost(axis, last, counts, evidence.outermost);
 }
 
 }  // namespace
 
-GridEvidence gatherEvidence(const openvdb::GridBase& grid, const LatticeMap& map,
-                            const std::optional<GridClass>& known) {
+GridEvidence gatherEvidence(const openvdb::GridBase& grid, const LatticeMap& map, const std::optional<GridClass>& known,
+                            const openvdb::GridBase* weight) {
   GridEvidence evidence;
   evidence.voxelSize = map.voxelSize();
   visitContourable(grid, [&](const auto& typed) {
@@ -144,7 +157,7 @@ GridEvidence gatherEvidence(const openvdb::GridBase& grid, const LatticeMap& map
     if constexpr (std::is_same_v<typename TreeT::ValueType, bool>) {
       evidence.mask = true;
     } else {
-      gatherFromTree(typed.tree(), map, known, evidence);
+      gatherFromTree(typed.tree(), map, known, hasWeight(weight), evidence);
     }
   });
   return evidence;

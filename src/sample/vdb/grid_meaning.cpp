@@ -211,8 +211,18 @@ class Decision {
     // With the background all inactive values change their sign.
     const bool turned = newBackground && !isArray() && *newBackground * mEvidence.background < 0;
     const std::size_t right = mEvidence.ends[high][high != turned], wrong = mEvidence.ends[high][high == turned];
-    const bool told = std::count(mMeaning.doubts.begin(), mMeaning.doubts.end(), GridDoubt::kOutermostInside) > 0;
-    if (wrong > right && wrong >= kLeastEnds && !told) doubt(GridDoubt::kNotFloodFilled);
+    const bool told = std::any_of(mMeaning.doubts.begin(), mMeaning.doubts.end(), [](GridDoubt d) {
+      return d == GridDoubt::kOutermostInside || d == GridDoubt::kSideUnclear;
+    });
+    if (told) return;
+    if (wrong > right && wrong >= kLeastEnds) return doubt(GridDoubt::kNotFloodFilled);
+    const std::vector<double>& outermost = mEvidence.outermost;
+    const bool closed = newBackground || !isInside(mEvidence.background);
+    if (closed && std::any_of(outermost.begin(), outermost.end(), [&](double v) {
+          // Beyond zero the isovalue may lie where the band ends.
+          return isInside(v) && (high ? v > 0 : v < 0);
+        }))
+      doubt(GridDoubt::kCutAtEnd);
   }
 
   const GridEvidence& mEvidence;

@@ -35,9 +35,10 @@ struct GridEvidence {
 };
 
 /// Looks at a grid of a type that can be contoured. \param known the grid's class; the range is that of all values
-/// where it is not known, and where a sample of a level set has no negative value.
+/// where it is not known, and where a sample of a level set has no negative value. \param weight null, or a grid: what
+/// has no weight above 0 in it is left out of what is outermost.
 [[nodiscard]] GridEvidence gatherEvidence(const openvdb::GridBase& grid, const LatticeMap& map,
-                                          const std::optional<GridClass>& known);
+                                          const std::optional<GridClass>& known, const openvdb::GridBase* weight);
 
 /// What is read of a grid, and with which background.
 struct Reading {

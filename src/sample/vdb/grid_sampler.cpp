@@ -49,11 +49,22 @@ class TypedGridSampler final : public GridSampler {
         mLimits(slopeLimits(reading)),
         mStencils(mTable, mReader, mLimits) {}
 
-  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override {
+  [[nodiscard]] GridBlocks surfaceBlocks(const Monitor& monitor, const GridSampler* weight) const override {
     monitor.throwIfStopped();
-    const SurfaceBlockSearch<TreeT> search(mGrid->tree(), mTable, mReader, mReading);
+    const SurfaceBlockSearch<TreeT> search({mGrid->tree(), mTable, mReader, mReading, weight});
     monitor.throwIfStopped();
     return search.find(monitor);
+  }
+
+  [[nodiscard]] CellMask positivePoints(const Coord& block) const override {
+    const auto positive = [](auto v) { return v > 0 && ValueReader<typename TreeT::ValueType>::finite(v); };
+    const typename LeafTable<TreeT>::Place place = typename LeafTable<TreeT>::Around(mTable, block)(0, 0, 0);
+    if (place.leaf < 0) return positive(place.tile) ? CellMask::all() : CellMask{};
+    const auto& leaf = mTable.leaf(static_cast<std::size_t>(place.leaf));
+    CellMask points;
+    for (openvdb::Index i = 0; i < TreeT::LeafNodeType::SIZE; ++i)
+      points.word[i / 64] |= std::uint64_t{positive(leaf.getValue(i))} << i % 64;
+    return points;
   }
 
   void prefetch(const Coord& block) const override { mStencils.prefetch(block); }

@@ -59,12 +59,16 @@ struct GridSource::Impl {
 GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options) {
   if (!grid) throw std::invalid_argument("GridSource: the grid is null");
   if (options.iso && !std::isfinite(*options.iso)) throw Error("the isovalue must be finite");
-  ReadableGrid readable = readMeaning(
-      grid,
-      {.iso = options.iso, .gridClass = options.gridClass, .inside = options.inside, .floodFill = options.floodFill});
+  ReadableGrid readable = readMeaning(grid, {.iso = options.iso,
+                                             .gridClass = options.gridClass,
+                                             .inside = options.inside,
+                                             .weight = options.weight,
+                                             .floodFill = options.floodFill});
   GridMeaning& meaning = readable.meaning;
   // What lies beyond the active values does not matter there.
-  if (options.open) std::erase(meaning.doubts, GridDoubt::kNotFloodFilled);
+  if (options.open)
+    std::erase_if(meaning.doubts,
+                  [](GridDoubt d) { return d == GridDoubt::kNotFloodFilled || d == GridDoubt::kCutAtEnd; });
   const detail::GridReading reading{.iso = meaning.iso,
                                     .insideIsHigher = meaning.inside == InsideValues::kHigh,
                                     .open = options.open,
@@ -81,7 +85,9 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
 
 GridSource::~GridSource() = default;
 
-SurfaceBlocks GridSource::surfaceBlocks(const Monitor& monitor) const { return mImpl->sampler->surfaceBlocks(monitor); }
+SurfaceBlocks GridSource::surfaceBlocks(const Monitor& monitor) const {
+  return mImpl->sampler->surfaceBlocks(monitor, mImpl->noise.weight()).blocks;
+}
 
 const LatticeMap& GridSource::map() const { return mImpl->map; }
 
@@ -123,6 +129,10 @@ double GridSource::iso() const { return mImpl->reading.iso; }
 bool GridSource::usesDistances() const { return mImpl->distances.has_value(); }
 double GridSource::valueNoise() const { return mImpl->distances ? mImpl->distances->noise : 0; }
 std::size_t GridSource::refusedNoise() const { return mImpl->noise.refused(); }
+std::size_t GridSource::crossingsWithoutData() const {
+  if (mImpl->reading.open || mImpl->noise.weight() == nullptr) return 0;
+  return mImpl->sampler->surfaceBlocks({}, mImpl->noise.weight()).crossingsWithoutData;
+}
 bool GridSource::insideIsHigher() const { return mImpl->reading.insideIsHigher; }
 const GridMeaning& GridSource::meaning() const { return mImpl->meaning; }
 

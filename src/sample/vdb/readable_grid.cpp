@@ -85,7 +85,8 @@ ReadableGrid readMeaning(const openvdb::GridBase::ConstPtr& grid, const GridMean
         fmt::format("grid of type {} cannot be contoured; {} can", grid->valueType(), detail::contourableTypeNames()));
   const std::optional<GridClass> fileClass = classOf(*grid);
   const auto known = options.gridClass ? options.gridClass : fileClass;
-  const detail::GridEvidence evidence = detail::gatherEvidence(*grid, detail::gridMap(*grid), known);
+  const detail::GridEvidence evidence =
+      detail::gatherEvidence(*grid, detail::gridMap(*grid), known, options.weight.get());
   const detail::Reading reading = detail::decideMeaning(evidence, fileClass, options);
   const bool fill = options.floodFill && reading.meaning.gridClass == GridClass::kLevelSet;
   if (options.floodFill && !(fill && std::isfinite(reading.clamp)))

@@ -26,6 +26,7 @@ TEST(GridWarnings, ALineForEachDoubtNamesItsRemedy) {
                                                   {GridDoubt::kLooksLikeFog, "--class fog"},
                                                   {GridDoubt::kLooksLikeLevelSet, "--class level-set"},
                                                   {GridDoubt::kNotFloodFilled, "--flood-fill"},
+                                                  {GridDoubt::kCutAtEnd, "--open"},
                                                   {GridDoubt::kIsoNearBandEnd, "--iso V"},
                                                   {GridDoubt::kNarrowBand, "half width of 3"}};
   for (const auto& [doubt, remedy] : remedies) {
@@ -41,7 +42,8 @@ TEST(GridWarnings, ALineForEachDoubtNamesItsRemedy) {
 
 TEST(GridWarnings, ScenesHaveKeysInsteadOfOptions) {
   EXPECT_TRUE(mentions(lineOf(GridDoubt::kPositiveInside, OptionStyle::kScene), "inside: high"));
-  for (const GridDoubt doubt : {GridDoubt::kPositiveInside, GridDoubt::kNotFloodFilled, GridDoubt::kUnsigned})
+  for (const GridDoubt doubt :
+       {GridDoubt::kPositiveInside, GridDoubt::kNotFloodFilled, GridDoubt::kCutAtEnd, GridDoubt::kUnsigned})
     EXPECT_FALSE(mentions(lineOf(doubt, OptionStyle::kScene), "--"));
 }
 

@@ -170,7 +170,8 @@ TEST_F(GridMeaningTest, ACaveIsSolidAroundIfThatIsSaidOrSeen) {
     return -std::min<double>(distance(c), c.z() > 0 ? way : 1e3);
   });
   expectMeaning(rock, {GridClass::kLevelSet, InsideValues::kLow, {GridDoubt::kSideUnclear}});
-  expectMeaning(rock, kLowLevelSet, {.inside = InsideValues::kLow});
+  const Expected cut{GridClass::kLevelSet, InsideValues::kLow, {GridDoubt::kCutAtEnd}};
+  expectMeaning(rock, cut, {.inside = InsideValues::kLow});
   const double cube = std::pow(2 * kHalf + 2, 3), way = kPi * 16 * (kHalf + 1 - kRadius);
   EXPECT_NEAR(analyze(contour(GridSource(rock))).volume / (cube - kVolume - way), 1, 0.06);
 }
@@ -277,11 +278,16 @@ TEST_F(GridMeaningTest, LevelSetsThatAreNotFloodFilledAreSaidAndFilled) {
   EXPECT_THROW(readMeaning(dense(distance), {.gridClass = GridClass::kFogVolume, .floodFill = true}), Error);
 }
 
-TEST_F(GridMeaningTest, AClippedLevelSetIsFilledAsItIs) {
+TEST_F(GridMeaningTest, ALevelSetThatIsCutOffIsSaidUnlessItStaysOpen) {
   auto clipped = withClass(ball(), openvdb::GRID_LEVEL_SET);
   for (auto it = clipped->beginValueOn(); it; ++it)
     if (it.getCoord().x() > 5) it.setValueOff();
-  expectMeaning(clipped, kLowLevelSet);
+  const Expected expected{GridClass::kLevelSet, InsideValues::kLow, {GridDoubt::kCutAtEnd}};
+  expectMeaning(clipped, expected);
+  EXPECT_TRUE(GridSource(clipped, {.open = true}).meaning().doubts.empty());
+  const auto half = [](const Coord& c) { return distance(c + Coord(0, 0, kHalf)); };
+  expectMeaning(dense(half), expected);
+  expectMeaning(dense(half, 50), expected);
 }
 
 TEST_F(GridMeaningTest, AnIsovalueBesideTheEndOfTheBandIsDoubted) {

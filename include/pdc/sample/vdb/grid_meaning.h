@@ -36,6 +36,7 @@ enum class GridDoubt {
   kLooksLikeFog,       ///< The class says level set, but no value is negative.
   kLooksLikeLevelSet,  ///< The class says fog volume, but the values are signed distances.
   kNotFloodFilled,     ///< Inside, the active values end beside inactive ones that are outside: a false sheet.
+  kCutAtEnd,           ///< A level set is inside where its values end, and closed there.
   kIsoNearBandEnd,     ///< The isovalue is less than a voxel from where the values end.
   kNarrowBand,         ///< The values end less than two voxels from the surface.
 };
@@ -45,6 +46,8 @@ struct GridMeaningOptions {
   std::optional<double> iso{};  ///< Finite.
   std::optional<GridClass> gridClass{};
   std::optional<InsideValues> inside{};
+  /// See GridSourceOptions: values of weight 0 do not say what is outermost. Null if there is none.
+  openvdb::GridBase::ConstPtr weight{};
   bool floodFill = false;  ///< See GridSourceOptions.
 };
 

@@ -21,7 +21,8 @@ struct GridSourceOptions {
   /// Isovalue in the grid's own units; finite. Default: 0 for level sets, 0.5 for fog volumes and booleans.
   std::optional<double> iso{};
   /// false: the tree is a function on all of space, tiles and background included, so the surface is closed.
-  /// true: only cells whose eight corners are active take part, so the surface ends where activity ends.
+  /// true: only cells whose eight corners are active, and have a weight above 0 where there is a weight grid, take
+  /// part, so the surface ends where the data ends.
   bool open = false;
   /// false: NaN and infinite voxels are an error. true: NaN and +inf are outside, -inf is inside (with the grid's sense
   /// of inside), and none of them is used for a normal.
@@ -32,7 +33,7 @@ struct GridSourceOptions {
   /// negative or not finite count as 0 (see GridSource::refusedNoise).
   openvdb::GridBase::ConstPtr sigma{};
   /// How much each value counts beside others, >= 0, like the weights of a truncated signed distance; only ratios
-  /// matter. Null, or a grid as for sigma.
+  /// matter, but for 0: it is no data. Null, or a grid as for sigma.
   openvdb::GridBase::ConstPtr weight{};
   /// Empty: the class that the grid carries or, without one, that its values have: see readMeaning().
   std::optional<GridClass> gridClass{};
@@ -94,6 +95,9 @@ class GridSource final : public HermiteSource {
   [[nodiscard]] bool usesDistances() const;
   /// Standard deviation of white noise in the distances, in voxels, as estimated, >= 0; 0 if no distances are used.
   [[nodiscard]] double valueNoise() const;
+  /// The number of sign-changing edges that have an end of weight 0, where the surface is closed all the same; 0 if it
+  /// is open or there are no weights. Takes as long as surfaceBlocks(). \throws what that does.
+  [[nodiscard]] std::size_t crossingsWithoutData() const;
   /// The number of active values of the σ and weight grids that are negative or not finite; tiles count once.
   [[nodiscard]] std::size_t refusedNoise() const;
 
