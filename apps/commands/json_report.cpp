@@ -18,6 +18,20 @@ Json sigmaNormalJson(const std::optional<double>& sigma) {
   return std::isinf(*sigma) ? Json("inf") : Json(*sigma);
 }
 
+namespace {
+
+Json toJson(const std::optional<GridMeaning>& meaning) {
+  if (!meaning) return {};
+  return {{"class", nameOf(meaning->gridClass)},
+          {"class_decided_by", nameOf(meaning->classBy)},
+          {"inside", nameOf(meaning->inside)},
+          {"inside_decided_by", nameOf(meaning->insideBy)},
+          {"slope", meaning->slope},
+          {"half_width_voxels", meaning->halfWidth}};
+}
+
+}  // namespace
+
 Json toJson(const MeshRequest& request, const MeshRun& run) {
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
@@ -30,6 +44,8 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"blocks", run.contour.blocks},
           {"crossings", run.contour.crossings},
           {"crossings_without_normal", run.contour.crossingsWithoutNormal},
+          {"vertices_on_box", run.verticesOnBox},
+          {"crossings_without_data", run.crossingsWithoutData},
           {"clamped_vertices", run.contour.clamped},
           {"out_of_cell_vertices", run.contour.outOfCell},
           {"multi_vertex_cells", run.contour.multiVertexCells},
@@ -39,6 +55,7 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
           {"fans", run.contour.fans},
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
+          {"grid", toJson(run.meaning)},
           {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
           {"median_sigma_n", run.contour.medianSigmaNormal},
           {"normal_noise", run.contour.normalNoise},

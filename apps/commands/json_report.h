@@ -17,7 +17,10 @@ struct MeshRun {
   ContourReport contour;
   double iso = 0;
   PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
-  double valueNoise = 0;  ///< See Input.
+  double valueNoise = 0;                 ///< See Input.
+  std::size_t crossingsWithoutData = 0;  ///< See Input.
+  std::size_t verticesOnBox = 0;         ///< Where a scene's solid is cut off.
+  std::optional<GridMeaning> meaning;    ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   Vec3d origin{};  ///< See Mesh::origin.

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <vector>
 
 #include "commands/json_report.h"
 #include "extract/contour_memory.h"
 #include "io/file/suffix.h"
+#include "mesh/components.h"
 #include "parallel/stopwatch.h"
 #include "pdc/extract/contour_forecast.h"
 #include "pdc/io/mesh/mesh_writer.h"
@@ -67,6 +71,32 @@ void checkForecast(const MeshRequest& request, const Input& input, const MeshRun
              stderr);
 }
 
+/// The vertices of the walls that close a scene's solid where its box cuts it off.
+std::size_t countOnBox(const Input& input, const Mesh& mesh) {
+  constexpr double kNear = 0.02;  // voxels
+  if (!input.cut) return 0;
+  const double near = kNear * input.source->map().voxelSize();
+  return static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3f& p) {
+    bool on = false;
+    for (int axis = 0; axis < 3; ++axis)
+      on = on || p[axis] < input.cut->lo[axis] + near || p[axis] > input.cut->hi[axis] - near;
+    return on;
+  }));
+}
+
+/// Noise about the isovalue makes thousands of closed surfaces about a lattice point or few.
+void checkSpecks(const Mesh& mesh, MeshRun& run) {
+  constexpr std::size_t kMany = 1000, kMostVertices = 24;
+  const std::vector<std::uint32_t> sizes = detail::componentSizes(mesh);
+  const auto specks = static_cast<std::size_t>(
+      std::count_if(sizes.begin(), sizes.end(), [](std::size_t size) { return size <= kMostVertices; }));
+  if (specks >= kMany)
+    warn(run,
+         fmt::format("{} of {} separate surfaces are specks of at most {} vertices; an --iso farther from the noise "
+                     "or a smoothed input has fewer",
+                     specks, sizes.size(), kMostVertices));
+}
+
 Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   detail::Stopwatch stopwatch;
   const Input input = [&] {
@@ -78,6 +108,9 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   if (input.refusedNoise > 0)
     warn(run,
          fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
+  for (const std::string& warning : input.warnings) warn(run, warning);
+  run.meaning = input.meaning;
+  run.crossingsWithoutData = input.crossingsWithoutData;
   run.iso = input.iso;
   run.planeOrigin = input.planeOrigin;
   run.valueNoise = input.valueNoise;
@@ -93,6 +126,8 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   run.secondsContour = stopwatch.lap();
   checkSurface(request, input, mesh, run);
   checkPrecision(input, mesh, run);
+  checkSpecks(mesh, run);
+  run.verticesOnBox = countOnBox(input, mesh);
   return mesh;
 }
 
@@ -104,15 +139,39 @@ std::string facesText(const MeshRun& run) {
   return run.triangles == 0 ? quads : fmt::format("{} and {}", quads, triangles);
 }
 
+const char* phraseOf(DecidedBy by) {
+  switch (by) {
+    case DecidedBy::kFile:
+      return "says the file";
+    case DecidedBy::kType:
+      return "by its type";
+    case DecidedBy::kValues:
+      return "by its values";
+    case DecidedBy::kCaller:
+      return "as asked";
+  }
+  return "";
+}
+
 void printSummary(const MeshRequest& request, const MeshRun& run) {
   const std::size_t open = run.contour.boundaryEdges;
   const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
   fmt::print("{}: {} vertices, {}, {}; {} bytes\n", request.output.string(), run.vertices, facesText(run), boundary,
              run.bytesWritten);
+  if (run.meaning)
+    fmt::print("a {} ({}), {} values inside ({})\n", nameOf(run.meaning->gridClass), phraseOf(run.meaning->classBy),
+               nameOf(run.meaning->inside), phraseOf(run.meaning->insideBy));
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (run.origin != Vec3d{} && !request.doublePrecision)
     fmt::print("coordinates are relative to the origin {}, {}, {}\n", run.origin.x, run.origin.y, run.origin.z);
+  if (run.crossingsWithoutData > 0)
+    fmt::print(
+        "{} of {} crossings have weight 0 at an end and are closed all the same; --open ends the surface there\n",
+        run.crossingsWithoutData, run.contour.crossings);
+  if (run.verticesOnBox > 0)
+    fmt::print("the solid is cut off by the box: {} vertices on it; a larger box has more of it, --open no walls\n",
+               run.verticesOnBox);
   if (run.contour.creasePatches > 0)
     fmt::print("{:.2g} % of the vertices on creases\n",
                1e2 * static_cast<double>(run.contour.creasePatches) / static_cast<double>(run.vertices));

@@ -18,6 +18,8 @@ const Choices<Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
 const Choices<HermiteMode> kHermiteModes{
     {"auto", HermiteMode::kAuto}, {"gradient", HermiteMode::kGradient}, {"distance", HermiteMode::kDistance}};
+const Choices<GridClass> kGridClasses{{"level-set", GridClass::kLevelSet}, {"fog", GridClass::kFogVolume}};
+const Choices<InsideValues> kInsides{{"low", InsideValues::kLow}, {"high", InsideValues::kHigh}};
 const Choices<bool> kNonFiniteModes{{"error", false}, {"outside", true}};
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
@@ -84,6 +86,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
             "beside creases, distances; auto: distances if the grid has them")
       ->type_name("MODE")
       ->group(grids);
+  addGridMeaning(command, request, grids);
   addNoiseGrids(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
@@ -120,6 +123,9 @@ InputOptions MeshRequest::inputOptions() const {
           .acceptNonFinite = acceptNonFinite.value_or(false),
           .grid = grid,
           .hermite = hermite.value_or(HermiteMode::kAuto),
+          .gridClass = gridClass,
+          .inside = inside,
+          .floodFill = floodFill,
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
           .voxelSize = voxelSize,
@@ -155,13 +161,29 @@ CLI::Option* addNonFinite(CLI::App& command, std::optional<bool>& target) {
       ->type_name("MODE");
 }
 
+void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group) {
+  addChoice(command, "--class", request.gridClass, kGridClasses,
+            "What the values are (the grid's class, or as they look)")
+      ->type_name("CLASS")
+      ->group(group);
+  addChoice(command, "--inside", request.inside, kInsides, "Which values are inside (low in level sets, high in fogs)")
+      ->type_name("SIDE")
+      ->group(group);
+  command
+      .add_flag("--flood-fill", request.floodFill,
+                "Inactive values become inside or outside, as the active\nones of a level set beside them are")
+      ->group(group);
+}
+
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group) {
   command
       .add_option("--sigma-grid", request.sigmaGrid,
                   "Grid of the same file: standard deviation of each value,\nin its units; adds to --sigma-n")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--weight-grid", request.weightGrid, "Grid of the same file: how much each value counts")
+  command
+      .add_option("--weight-grid", request.weightGrid,
+                  "Grid of the same file: how much each value counts;\n0 is no data, where --open ends the surface")
       ->type_name("NAME")
       ->group(group);
 }
@@ -196,6 +218,9 @@ void checkMeshRequest(const MeshRequest& request) {
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
       refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
+      refuseOther(request.gridClass.has_value(), "--class", ".vdb inputs");
+      refuseOther(request.inside.has_value(), "--inside", ".vdb inputs");
+      refuseOther(request.floodFill, "--flood-fill", ".vdb inputs");
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       break;

@@ -16,6 +16,9 @@ struct MeshRequest {
   std::optional<std::string> grid, sigmaGrid, weightGrid;
   std::optional<bool> acceptNonFinite;
   std::optional<HermiteMode> hermite;
+  std::optional<GridClass> gridClass;
+  std::optional<InsideValues> inside;
+  bool floodFill = false;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
@@ -47,6 +50,9 @@ CLI::Option* addNonFinite(CLI::App& command, std::optional<bool>& target);
 
 /// Declares --sigma-grid and --weight-grid.
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group);
+
+/// Declares --class, --inside and --flood-fill.
+void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// \throws CLI::ValidationError for options that do not go with the kind of input, or a report that would replace the
 /// input or the output; Error for an input that is neither grid nor scene, and for σ and weight grids without a name or

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "commands/mesh_file.h"
 #include "pdc/io/mesh/mesh_writer.h"
@@ -44,8 +47,22 @@ SweepTruth readReference(const std::filesystem::path& path, bool quiet) {
   return {.field = nullptr, .reference = std::move(mesh), .creases = {}};
 }
 
-SweepInput openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference) {
+/// What is odd about the inputs of all steps, each line once.
+class Warnings {
+ public:
+  void say(const Input& input) {
+    for (const std::string& warning : input.warnings)
+      if (mSaid.insert(warning).second) std::fputs(fmt::format("pdc: warning: {}\n", warning).c_str(), stderr);
+  }
+
+ private:
+  std::set<std::string> mSaid;
+};
+
+SweepInput openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference,
+                    Warnings& warnings) {
   Input input = reading(mesh.input, mesh.quiet, [&] { return openInput(mesh.input, mesh.inputOptions()); });
+  warnings.say(input);
   SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
   return {std::move(input.source), std::move(truth)};
 }
@@ -54,7 +71,8 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
   const SweepTruth reference =
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const SweepParameter parameter = request.parameter();
-  SweepInput first = openStep(request, request.mesh, reference);
+  Warnings warnings;
+  SweepInput first = openStep(request, request.mesh, reference, warnings);
   SweepOptions options{.contour = request.mesh.contourOptions(kPapersSigmaNormal), .truth = {}};
   if (parameter == SweepParameter::kSigmaNormal) {
     options.truth = std::move(first.truth);
@@ -65,7 +83,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       [&](double value) {
         MeshRequest mesh = request.mesh;
         (parameter == SweepParameter::kIso ? mesh.iso : mesh.voxelSize) = value;
-        return openStep(request, mesh, reference);
+        return openStep(request, mesh, reference, warnings);
       },
       options, monitor);
 }

@@ -68,6 +68,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   addNonFinite(command, mesh.acceptNonFinite);
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
+  addGridMeaning(command, mesh, "OPTIONS");
   addNoiseGrids(command, mesh, "OPTIONS");
   command
       .add_option("--reference", request.reference,

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/file/suffix.h"
+#include "io/vdb/grid_warnings.h"
 #include "pdc/error.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
@@ -28,6 +30,9 @@ void checkSceneOptions(const fs::path& path, const InputOptions& options) {
   const auto grids = ".vdb inputs";
   refuseOther(options.grid.has_value(), path, "a grid's name", grids);
   refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
+  refuseOther(options.gridClass.has_value(), path, "a grid's class", grids);
+  refuseOther(options.inside.has_value(), path, "a side that is inside", grids);
+  refuseOther(options.floodFill, path, "flood filling", grids);
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
@@ -64,12 +69,18 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
                               .acceptNonFinite = options.acceptNonFinite,
                               .hermite = options.hermite,
                               .sigma = readCompanion(path, options.sigmaGrid, *grid, "sigma"),
-                              .weight = readCompanion(path, options.weightGrid, *grid, "weight")});
+                              .weight = readCompanion(path, options.weightGrid, *grid, "weight"),
+                              .gridClass = options.gridClass,
+                              .inside = options.inside,
+                              .floodFill = options.floodFill});
   Input input;
   input.iso = source->iso();
   input.planeOrigin = source->usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
   input.valueNoise = source->valueNoise();
   input.refusedNoise = source->refusedNoise();
+  input.crossingsWithoutData = source->crossingsWithoutData();
+  input.meaning = source->meaning();
+  input.warnings = detail::gridWarnings(source->meaning(), detail::OptionStyle::kProgram);
   input.whyEmpty = [path, name = grid->getName(), iso = input.iso] { return whyGridIsEmpty(path, name, iso); };
   input.source = std::move(source);
   return input;
@@ -82,12 +93,13 @@ double longestSide(const Box& box) {
 
 Input openScene(const fs::path& path, const InputOptions& options) {
   checkSceneOptions(path, options);
-  const Scene scene = readScene(path, options.acceptNonFinite);
+  Scene scene = readScene(path, options.acceptNonFinite);
   double voxelSize = options.voxelSize.value_or(scene.voxelSize);
   if (options.resolution) voxelSize = longestSide(scene.box) / *options.resolution;
   Input input;
   input.iso = options.iso.value_or(scene.iso);
   input.sigmaNormal = scene.sigmaNormal;
+  input.warnings = std::move(scene.warnings);
   auto source =
       std::make_unique<FieldSource>(scene.field, FieldSourceOptions{.box = scene.box,
                                                                     .voxelSize = voxelSize,
@@ -95,6 +107,7 @@ Input openScene(const fs::path& path, const InputOptions& options) {
                                                                     .open = options.open,
                                                                     .acceptNonFinite = scene.acceptNonFinite});
   input.field = source->levelField();
+  if (!options.open) input.cut = scene.box;
   input.planeOrigin = PlaneOrigin::kFunction;
   input.whyEmpty = [iso = input.iso] { return fmt::format("the scene has no surface at iso {} in its box", iso); };
   input.source = std::move(source);

@@ -19,6 +19,16 @@ void spoil(openvdb::FloatGrid& grid, int nanVoxels, int infiniteVoxels) {
   }
 }
 
+void turn(openvdb::FloatGrid& grid) {
+  const float background = grid.background();
+  for (auto value = grid.beginValueAll(); value; ++value) value.setValue(-*value);
+  grid.tree().root().setBackground(-background, false);
+}
+
+void empty(openvdb::FloatGrid& grid) {
+  for (auto value = grid.beginValueOff(); value; ++value) value.setValue(grid.background());
+}
+
 openvdb::FloatGrid::Ptr companion(const openvdb::FloatGrid& sphere, const char* name, float low, float high) {
   auto grid = openvdb::FloatGrid::create(0);
   grid->setName(name);
@@ -31,6 +41,7 @@ openvdb::FloatGrid::Ptr companion(const openvdb::FloatGrid& sphere, const char* 
 void addNoiseGrids(const openvdb::FloatGrid& sphere, openvdb::GridPtrVec& grids) {
   grids.push_back(companion(sphere, "sigma", 0, 0.02F));
   grids.push_back(companion(sphere, "weight", 1, 1));
+  grids.push_back(companion(sphere, "halved", 1, 0));
   grids.push_back(companion(sphere, "faulty", -1, -1));
   grids.push_back(companion(sphere, "moved", 1, 1));
   grids.back()->setTransform(openvdb::math::Transform::createLinearTransform(0.3));
@@ -48,6 +59,8 @@ void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
     auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     sphere->setName("sphere");
     sphere->transform().postTranslate({content.offset, 0, 0});
+    if (content.positiveInside) turn(*sphere);
+    if (!content.floodFilled) empty(*sphere);
     spoil(*sphere, content.nanVoxels, content.infiniteVoxels);
     grids.push_back(sphere);
     if (content.noiseGrids) addNoiseGrids(*sphere, grids);

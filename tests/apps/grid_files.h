@@ -10,10 +10,12 @@ struct SphereFile {
   int infiniteVoxels = 0;   ///< That many more become infinite.
   bool vectorGrid = false;  ///< Holds a vec3s grid instead.
   bool twoGrids = false;    ///< Holds the same grid a second time under the name "other"; the first is "sphere".
-  /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "moved", of
-  /// another transform; "faulty", -1 there.
+  /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "halved", 1
+  /// there where x > 0; "moved", of another transform; "faulty", -1 there.
   bool noiseGrids = false;
-  double offset = 0;  ///< Moves the centre along x, through the grid's transform.
+  bool positiveInside = false;  ///< All values have the other sign; the class stays.
+  bool floodFilled = true;      ///< False: all inactive values are the background.
+  double offset = 0;            ///< Moves the centre along x, through the grid's transform.
 };
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content = {});

@@ -142,6 +142,81 @@ TEST_F(MeshCommand, IsoOutsideOfTheValuesWarnsAndGivesAnEmptyMesh) {
   EXPECT_TRUE(std::filesystem::exists(mOutput));
 }
 
+TEST_F(MeshCommand, HowAGridIsReadIsSaid) {
+  const Json report = contour({bulletGrid()});
+  EXPECT_EQ(report["grid"]["class"], "level set");
+  EXPECT_EQ(report["grid"]["class_decided_by"], "file");
+  EXPECT_EQ(report["grid"]["inside"], "low");
+  EXPECT_EQ(report["grid"]["inside_decided_by"], "file");
+  EXPECT_NEAR(report["grid"]["half_width_voxels"], 3, 0.2);
+  EXPECT_NE(mOutcome.out.find("a level set (says the file), low values inside (says the file)"), std::string::npos);
+  EXPECT_TRUE(contour({demoScene(), "--resolution", "20"})["grid"].is_null());
+}
+
+TEST_F(MeshCommand, ASceneThatIsCutOffByItsBoxIsSaid) {
+  const std::string start = "voxel_size: 0.1\nbox: [[-1, -1, -1], [1, 1, ";
+  const std::string shape = "]]\nshape: {sphere: {radius: 0.9}}\n";
+  EXPECT_EQ(contour({mFolder.write("whole.yaml", start + "1" + shape)})["vertices_on_box"], 0);
+  EXPECT_EQ(mOutcome.out.find("cut off"), std::string::npos);
+  const std::string cut = mFolder.write("cut.yaml", start + "0.43" + shape);
+  // A disc of radius 0.79 with a vertex per voxel.
+  EXPECT_NEAR(contour({cut})["vertices_on_box"], M_PI * 0.79 * 0.79 / 0.01, 50);
+  EXPECT_NE(mOutcome.out.find("the solid is cut off by the box"), std::string::npos) << mOutcome.out;
+  EXPECT_EQ(contour({cut, "--open"})["vertices_on_box"], 0);
+}
+
+TEST_F(MeshCommand, AWeightOfZeroIsNoData) {
+  writeSphere(mFolder / "seen.vdb", {.noiseGrids = true});
+  // The weight "halved" is 0 where x is not positive.
+  const Arguments arguments{mFolder / "seen.vdb", "--grid", "sphere", "--weight-grid", "halved"};
+  const Json closed = contour(arguments);
+  EXPECT_EQ(closed["boundary_edges"], 0);
+  EXPECT_NEAR(closed["crossings_without_data"].get<double>() / closed["crossings"].get<double>(), 0.52, 0.04);
+  EXPECT_NE(mOutcome.out.find("have weight 0 at an end"), std::string::npos) << mOutcome.out;
+  Arguments open = arguments;
+  open.emplace_back("--open");
+  EXPECT_GT(contour(open)["boundary_edges"], 40);
+  EXPECT_EQ(contour(open)["crossings_without_data"], 0);
+  EXPECT_EQ(analyze(readMesh(mOutput)).eulerNumber, 1);
+  EXPECT_GT(analyze(readMesh(mOutput)).bounds.lo.x, 0);
+}
+
+TEST_F(MeshCommand, ThousandsOfSpecksAreAWarning) {
+  // One lattice point in 64 is inside.
+  const std::string noise =
+      "voxel_size: 0.02\nbox: [[-1, -1, -1], [1, 1, 1]]\nshape: {formula: {lipschitz: 140, "
+      "expression: \"2.7 - cos(25*pi*x) - cos(25*pi*y) - cos(25*pi*z)\"}}\n";
+  const Json report = contour({mFolder.write("noise.yaml", noise)});
+  ASSERT_EQ(report["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("are specks of at most 24 vertices; an --iso"), std::string::npos) << mOutcome.err;
+}
+
+TEST_F(MeshCommand, ClassAndSideReachTheGrid) {
+  const Json report = contour({bulletGrid(), "--class", "level-set", "--inside", "high", "--iso", "0.001"});
+  EXPECT_EQ(report["grid"]["class_decided_by"], "caller");
+  EXPECT_EQ(report["grid"]["inside"], "high");
+  EXPECT_LT(analyze(readMesh(mOutput)).volume, 0);
+  EXPECT_EQ(contour({bulletGrid(), "--class", "fog", "--iso", "0"})["grid"]["class"], "fog volume");
+}
+
+TEST_F(MeshCommand, AWrongSideIsAWarningWithItsRemedy) {
+  writeSphere(mFolder / "turned.vdb", {.positiveInside = true});
+  const Json report = contour({mFolder / "turned.vdb"});
+  ASSERT_EQ(report["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("--inside high"), std::string::npos) << mOutcome.err;
+  EXPECT_EQ(report["grid"]["inside_decided_by"], "values");
+  EXPECT_NEAR(analyze(readMesh(mOutput)).volume, 4.0 / 3.0 * M_PI, 0.01 * 4.0 / 3.0 * M_PI);
+}
+
+TEST_F(MeshCommand, AFalseSheetIsAWarningAndCanBeFilled) {
+  writeSphere(mFolder / "open.vdb", {.floodFilled = false});
+  EXPECT_EQ(contour({mFolder / "open.vdb"})["warnings"].size(), 1U);
+  EXPECT_NE(mOutcome.err.find("--flood-fill"), std::string::npos) << mOutcome.err;
+  EXPECT_EQ(analyze(readMesh(mOutput)).components, 2U);
+  EXPECT_TRUE(contour({mFolder / "open.vdb", "--flood-fill"})["warnings"].empty());
+  EXPECT_EQ(analyze(readMesh(mOutput)).components, 1U);
+}
+
 TEST_F(MeshCommand, NonFiniteVoxelsCountAsOutsideOnRequest) {
   writeSphere(mFolder / "nan.vdb", {.nanVoxels = 3, .infiniteVoxels = 2});
   contour({mFolder / "nan.vdb", "--nan", "outside"});

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/grid_files.h"
 #include "apps/program.h"
 
 namespace pdc::test {
@@ -35,6 +36,16 @@ class SweepCommand : public ::testing::Test {
   TemporaryFolder mFolder;
   std::string mScene = mFolder.write("cube.yaml", kScene), mOut = mFolder / "out", mSaid;
 };
+
+TEST_F(SweepCommand, AGridsWarningsAreSaidOnce) {
+  writeSphere(mFolder / "turned.vdb", {.positiveInside = true});
+  const std::string input = mFolder / "turned.vdb";
+  const Outcome outcome = runPdc({"sweep", input, mOut, "--iso", "0,0.05,0.1"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("--inside high"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  sweep({"--iso", "0,0.05,0.1", "--inside", "high"}, input);
+}
 
 TEST_F(SweepCommand, MeshesAreThoseOfPdcMesh) {
   const std::string bullet = bulletGrid();

@@ -7,6 +7,7 @@
 
 #include "io/vdb/vdb_files.h"
 #include "pdc/error.h"
+#include "pdc/mesh/mesh_report.h"
 #include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
@@ -75,6 +76,55 @@ TEST_F(OpenInput, OptionsReachTheGrid) {
   EXPECT_EQ(openInput(path, {.grid = "sphere", .weightGrid = "faulty"}).refusedNoise, values);
 }
 
+/// A sphere that is positive inside, with its class, or without.
+openvdb::FloatGrid::Ptr turned(bool withClass) {
+  auto grid = sphere();
+  const float background = grid->background();
+  for (auto it = grid->beginValueAll(); it; ++it) it.setValue(-*it);
+  grid->tree().root().setBackground(-background, false);
+  if (!withClass) grid->clearGridClass();
+  return grid;
+}
+
+double volumeOf(const Input& input) { return analyze(contour(*input.source)).volume; }
+
+TEST_F(OpenInput, AGridThatIsPositiveInsideIsReadSoAndThatIsSaid) {
+  const double volume = volumeOf(openInput(write({sphere()})));
+  const Input right = openInput(write({turned(false)}));
+  EXPECT_EQ(right.meaning->gridClass, GridClass::kLevelSet);
+  EXPECT_EQ(right.meaning->insideBy, DecidedBy::kValues);
+  EXPECT_TRUE(right.warnings.empty());
+  EXPECT_NEAR(volumeOf(right), volume, 1e-3 * volume);
+  const auto path = write({turned(true)});
+  const Input against = openInput(path);
+  ASSERT_EQ(against.warnings.size(), 1u);
+  EXPECT_TRUE(mentions(against.warnings[0], "--inside high"));
+  EXPECT_NEAR(volumeOf(against), volume, 1e-3 * volume);
+  const Input asked = openInput(path, {.inside = InsideValues::kHigh});
+  EXPECT_TRUE(asked.warnings.empty());
+  EXPECT_NEAR(volumeOf(asked), volume, 1e-3 * volume);
+  EXPECT_LT(volumeOf(openInput(path, {.inside = InsideValues::kLow})), 0);
+  EXPECT_EQ(openInput(path, {.gridClass = GridClass::kFogVolume}).iso, 0.5);
+}
+
+TEST_F(OpenInput, AScenesGridsAreReadAsByThemselves) {
+  const double volume = volumeOf(openInput(write({turned(true)})));
+  const std::string start = "voxel_size: 0.5\nbox: [[-6, -6, -6], [8, 8, 10]]\nshape: {grid: {file: a.vdb";
+  const Input input = openInput(scene(start + "}}\n"));
+  EXPECT_FALSE(input.meaning.has_value());
+  ASSERT_EQ(input.warnings.size(), 1u);
+  EXPECT_TRUE(mentions(input.warnings[0], "grid \"sphere\": the level set's background")) << input.warnings[0];
+  EXPECT_TRUE(mentions(input.warnings[0], "inside: high")) << input.warnings[0];
+  EXPECT_NEAR(volumeOf(input), volume, 0.02 * volume);
+  const Input asked = openInput(scene(start + ", class: level-set, inside: high}}\n"));
+  EXPECT_TRUE(asked.warnings.empty());
+  EXPECT_NEAR(volumeOf(asked), volume, 0.02 * volume);
+  // All around the ball, up to the box.
+  EXPECT_NEAR(volumeOf(openInput(scene(start + ", inside: low}}\n"))), 14 * 14 * 16 - volume, 0.1 * 14 * 14 * 16);
+  EXPECT_TRUE(mentions(errorOfOpening(scene(start + ", inside: up}}\n"), {}), "inside must be low or high, not 'up'"));
+  EXPECT_TRUE(mentions(errorOfOpening(scene(start + ", class: smoke}}\n"), {}), "class must be level-set or fog"));
+}
+
 TEST_F(OpenInput, NonFiniteVoxelsAreAnErrorUnlessAccepted) {
   const auto spoiled = sphere();
   spoiled->tree().setValueOn({2, 4, 16}, std::numeric_limits<float>::quiet_NaN());
@@ -136,8 +186,13 @@ TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
   const auto grid = write({sphere()});
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes only"));
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes only"));
-  const InputOptions forGrids[] = {
-      {.grid = "a"}, {.hermite = HermiteMode::kGradient}, {.sigmaGrid = "a"}, {.weightGrid = "a"}};
+  const InputOptions forGrids[] = {{.grid = "a"},
+                                   {.hermite = HermiteMode::kGradient},
+                                   {.gridClass = GridClass::kLevelSet},
+                                   {.inside = InsideValues::kLow},
+                                   {.floodFill = true},
+                                   {.sigmaGrid = "a"},
+                                   {.weightGrid = "a"}};
   for (const InputOptions& options : forGrids)
     EXPECT_TRUE(mentions(errorOfOpening(scene(), options), ".vdb inputs only")) << errorOfOpening(scene(), options);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pdc/extract/contour.h"
 #include "pdc/field/field.h"
@@ -30,6 +31,9 @@ struct InputOptions {
   // For grids only.
   std::optional<std::string> grid{};  ///< As readVdbGrid() takes it. Empty: the only grid that can be contoured.
   HermiteMode hermite = HermiteMode::kAuto;
+  std::optional<GridClass> gridClass{};    ///< Empty: the grid's, or what its values say; see readMeaning().
+  std::optional<InsideValues> inside{};    ///< Empty: decided from the grid.
+  bool floodFill = false;                  ///< See GridSourceOptions.
   std::optional<std::string> sigmaGrid{};  ///< A grid of the same file: standard deviation of each value, in its units.
   std::optional<std::string> weightGrid{};  ///< A grid of the same file: how much each value counts beside others.
 
@@ -53,10 +57,16 @@ struct Input {
   std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
   double iso = 0;                               ///< In the grid's or the function's own units.
   std::optional<double> sigmaNormal{};          ///< σn (no unit, >= 0 or infinite), if a scene says one.
-  FieldPtr field{};  ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
+  FieldPtr field{};          ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
+  std::optional<Box> cut{};  ///< Where a scene's solid is cut off and closed; empty for a grid and an open surface.
   PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
   double valueNoise = 0;         ///< Standard deviation of the values' noise in voxels where it was estimated; else 0.
   std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite; they count as 0.
+  std::size_t crossingsWithoutData = 0;  ///< See GridSource.
+  std::optional<GridMeaning> meaning{};  ///< Of a grid: how it is read, and why. Empty for a scene.
+  /// Where the data may mean something else than it was taken for or makes a poor surface: a line each, which names the
+  /// remedy by the program's option.
+  std::vector<std::string> warnings{};
   /// Says in a clause why a contour of this source is empty. Reads a grid's file again. \throws Error if that fails.
   std::function<std::string()> whyEmpty;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/scene/scene_shapes.h"
@@ -76,6 +77,7 @@ Scene readScene(const std::filesystem::path& path, bool acceptNonFinite) {
   if (p.has("expect")) scene.expect = readExpectation(p["expect"]);
   detail::SceneContext context{.folder = path.parent_path(), .acceptNonFinite = scene.acceptNonFinite};
   scene.field = detail::readShape(p["shape"], context);
+  scene.warnings = std::move(context.warnings);
   return scene;
 }
 

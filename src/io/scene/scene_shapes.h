@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/scene/yaml_value.h"
 #include "pdc/field/field.h"
@@ -12,10 +14,11 @@ namespace pdc::detail {
 
 /// What the shapes of a scene share while it is read.
 struct SceneContext {
-  std::filesystem::path folder;  ///< Where relative paths start.
-  bool acceptNonFinite = false;  ///< Whether voxels of grids may be NaN or infinite.
-  std::size_t shapes = 0;        ///< Number of shapes read so far; an alias counts each time it is used.
-  int depth = 0;                 ///< Number of shapes around the current one.
+  std::filesystem::path folder;         ///< Where relative paths start.
+  bool acceptNonFinite = false;         ///< Whether voxels of grids may be NaN or infinite.
+  std::size_t shapes = 0;               ///< Number of shapes read so far; an alias counts each time it is used.
+  int depth = 0;                        ///< Number of shapes around the current one.
+  std::vector<std::string> warnings{};  ///< See Scene.
 };
 
 /// A kind of shape: its name in the file, and how its parameters make a field.

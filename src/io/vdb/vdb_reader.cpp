@@ -14,7 +14,7 @@
 #include "io/vdb/vdb_grid.h"
 #include "io/vdb/vdb_tree_check.h"
 #include "parallel/machine_memory.h"
-#include "sample/vdb/contourable_grids.h"
+#include "sample/meaning/contourable_grids.h"
 
 namespace pdc {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "io/file/byte_reader.h"
 #include "pdc/error.h"
-#include "sample/vdb/contourable_grids.h"
+#include "sample/meaning/contourable_grids.h"
 
 namespace pdc::detail {
 namespace {

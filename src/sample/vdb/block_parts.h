@@ -38,6 +38,23 @@ inline void joinParts(const std::array<CellMask, kBlockParts>& part,
   }
 }
 
+/// The sign-changing edges from a block's 8×8×8 lower points that have an end which is not known.
+inline std::size_t crossingsToUnknown(const std::array<std::uint16_t, kBlockPoints * kBlockPoints>& inside,
+                                      const std::array<std::uint16_t, kBlockPoints * kBlockPoints>& known) {
+  std::uint64_t count = 0;
+  for (int x = 0; x < kBlockSize; ++x)
+    for (int y = 0; y < kBlockSize; ++y) {
+      const int row = kBlockPoints * x + y;
+      const auto add = [&](unsigned otherInside, unsigned otherKnown) {
+        count += bitCount((inside[row] ^ otherInside) & ~(known[row] & otherKnown) & 0xFF);
+      };
+      add(inside[row] >> 1, known[row] >> 1);
+      add(inside[row + 1], known[row + 1]);
+      add(inside[row + kBlockPoints], known[row + kBlockPoints]);
+    }
+  return count;
+}
+
 /// The cells whose eight corners are all among a block's points that are set.
 inline CellMask cellsWithAllCorners(const std::array<std::uint16_t, kBlockPoints * kBlockPoints>& points) {
   CellMask cells;

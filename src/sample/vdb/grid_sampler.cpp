@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sample/vdb/contourable_grids.h"
+#include "sample/meaning/contourable_grids.h"
 #include "sample/vdb/gradient_stencil.h"
 #include "sample/vdb/isovalue_points.h"
 #include "sample/vdb/stencil_reader.h"
@@ -18,7 +18,8 @@ namespace {
 SlopeLimits slopeLimits(const GridReading& reading) {
   constexpr double kMostClamp = 1e38;  // A slope of larger values may not fit into single precision.
   const double clamp = std::min(reading.clamp, kMostClamp);
-  const double low = -clamp - reading.iso, high = clamp - reading.iso;
+  const double iso = reading.insideIsHigher ? -reading.iso : reading.iso;
+  const double low = -clamp - iso, high = clamp - iso;
   return {static_cast<float>(low + 1e-6 * std::abs(low)), static_cast<float>(high - 1e-6 * std::abs(high))};
 }
 
@@ -50,9 +51,9 @@ class TypedGridSampler final : public GridSampler {
         mLimits(slopeLimits(reading)),
         mStencils(mTable, mReader, mLimits) {}
 
-  [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor& monitor) const override {
+  [[nodiscard]] GridBlocks surfaceBlocks(const Monitor& monitor, const GridSampler* weight) const override {
     monitor.throwIfStopped();
-    const SurfaceBlockSearch<TreeT> search(mGrid->tree(), mTable, mReader, mReading);
+    const SurfaceBlockSearch<TreeT> search({mGrid->tree(), mTable, mReader, mReading, weight});
     monitor.throwIfStopped();
     return search.find(monitor);
   }
@@ -72,6 +73,17 @@ class TypedGridSampler final : public GridSampler {
     }
     const double weight = count > 0 ? static_cast<double>(mTable.size()) / static_cast<double>(count) : 0;
     return {.blocks = weight * forecast.blocks, .crossings = weight * forecast.crossings};
+  }
+
+  [[nodiscard]] CellMask positivePoints(const Coord& block) const override {
+    const auto positive = [](auto v) { return v > 0 && isFiniteValue(v); };
+    const typename LeafTable<TreeT>::Place place = typename LeafTable<TreeT>::Around(mTable, block)(0, 0, 0);
+    if (place.leaf < 0) return positive(place.tile) ? CellMask::all() : CellMask{};
+    const auto& leaf = mTable.leaf(static_cast<std::size_t>(place.leaf));
+    CellMask points;
+    for (openvdb::Index i = 0; i < TreeT::LeafNodeType::SIZE; ++i)
+      points.word[i / 64] |= std::uint64_t{positive(leaf.getValue(i))} << i % 64;
+    return points;
   }
 
   void prefetch(const Coord& block) const override { mStencils.prefetch(block); }

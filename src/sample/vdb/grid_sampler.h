@@ -20,11 +20,21 @@ struct GridReading {
   double clamp = 0;
 };
 
+/// What HermiteSource::surfaceBlocks() gives, and how many of the sign-changing edges have an end without data; none
+/// where the surface is open.
+struct GridBlocks {
+  SurfaceBlocks blocks;
+  std::size_t crossingsWithoutData = 0;
+};
+
 /// The part of GridSource that depends on the value type.
 class GridSampler {
  public:
   virtual ~GridSampler() = default;
-  [[nodiscard]] virtual SurfaceBlocks surfaceBlocks(const Monitor& monitor) const = 0;
+  /// \param weight null, or values on the same lattice: points where they are not positive have no data.
+  [[nodiscard]] virtual GridBlocks surfaceBlocks(const Monitor& monitor, const GridSampler* weight) const = 0;
+  /// The points of a leaf or tile whose values are above zero and finite; bits as in CellMask.
+  [[nodiscard]] virtual CellMask positivePoints(const Coord& block) const = 0;
   [[nodiscard]] virtual SurfaceForecast forecast(const Monitor& monitor) const = 0;
   virtual void prefetch(const Coord& block) const = 0;
   virtual void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const = 0;

@@ -9,7 +9,7 @@
 
 #include "sample/creases/distance_stencil.h"
 #include "sample/creases/one_sided_slopes.h"
-#include "sample/vdb/contourable_grids.h"
+#include "sample/meaning/contourable_grids.h"
 
 namespace pdc::detail {
 namespace {

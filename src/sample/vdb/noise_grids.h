@@ -15,6 +15,8 @@ class NoiseGrids {
   NoiseGrids(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options);
 
   [[nodiscard]] bool any() const { return mSigma != nullptr || mWeight != nullptr; }
+  /// The values of the weight grid; null if there is none.
+  [[nodiscard]] const GridSampler* weight() const { return mWeight.get(); }
   [[nodiscard]] bool hasSigma() const { return mSigma != nullptr; }
   /// The number of active values that are negative or not finite.
   [[nodiscard]] std::size_t refused() const { return mRefused; }

@@ -4,11 +4,14 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
+#include <atomic>
+#include <utility>
 #include <vector>
 
 #include "pdc/monitor.h"
 #include "pdc/sample/hermite_source.h"
 #include "sample/vdb/block_parts.h"
+#include "sample/vdb/grid_sampler.h"
 #include "sample/vdb/leaf_signs.h"
 #include "sample/vdb/leaf_table.h"
 #include "sample/vdb/sort_blocks.h"
@@ -24,26 +27,43 @@ class SurfaceBlockSearch {
   using Table = LeafTable<TreeT>;
   using Reader = ValueReader<typename TreeT::ValueType>;
 
-  /// Reads the signs of all leaves. All arguments must outlive this. \throws Error for non-finite values that are not
+  /// What is searched, and how.
+  struct Input {
+    const TreeT& tree;
+    const Table& table;
+    const Reader& reader;
+    const GridReading& reading;
+    const GridSampler* weight;  ///< See GridSampler::surfaceBlocks().
+  };
+
+  /// Reads the signs of all leaves. The input must outlive this. \throws Error for non-finite values that are not
   /// accepted.
-  SurfaceBlockSearch(const TreeT& tree, const Table& table, const Reader& reader, const GridReading& reading)
-      : mTree(tree), mTable(table), mReader(reader), mOpen(reading.open), mLeaves(table, reader) {
-    if (reading.acceptNonFinite) return;
-    if (!mLeaves.allFinite() || nonFiniteTiles(tree).count > 0) requireFiniteVoxels(tree);
+  explicit SurfaceBlockSearch(const Input& input)
+      : mTree(input.tree),
+        mTable(input.table),
+        mReader(input.reader),
+        mWeight(input.weight),
+        mOpen(input.reading.open),
+        mLeaves(input.table, input.reader) {
+    if (input.reading.acceptNonFinite) return;
+    if (!mLeaves.allFinite() || nonFiniteTiles(input.tree).count > 0) requireFiniteVoxels(input.tree);
   }
 
   /// See HermiteSource::surfaceBlocks().
-  [[nodiscard]] SurfaceBlocks find(const Monitor& monitor) const {
+  [[nodiscard]] GridBlocks find(const Monitor& monitor) const {
     SurfaceBlocks out;
     out.open = mOpen;
     out.coords = mixedBlocks(monitor);
     out.signs.resize(out.coords.size());
+    std::atomic<std::size_t> withoutData = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.coords.size(), 64), [&](const auto& range) {
       monitor.throwIfStopped();
-      for (std::size_t i = range.begin(); i != range.end(); ++i) readSigns(out.coords[i], out.signs[i]);
+      std::size_t kept = 0;
+      for (std::size_t i = range.begin(); i != range.end(); ++i) kept += readSigns(out.coords[i], out.signs[i]);
+      withoutData += kept;
     });
     if (mOpen) dropBlocksWithoutCells(out);
-    return out;
+    return {std::move(out), withoutData};
   }
 
  private:
@@ -101,20 +121,33 @@ class SurfaceBlockSearch {
     return false;
   }
 
-  void readSigns(const Coord& block, BlockSigns& signs) const {
+  /// \returns the number of the block's crossings that are kept without data.
+  std::size_t readSigns(const Coord& block, BlockSigns& signs) const {
     const typename Table::Around around(mTable, block);
-    std::array<CellMask, kBlockParts> inside, active;
+    std::array<CellMask, kBlockParts> inside, data;
     for (int i = 0; i < kBlockParts; ++i) {
       const Place place = around(i >> 2, i >> 1 & 1, i & 1);
       inside[i] = mLeaves.mask(place);
-      if (mOpen) active[i] = activePoints(place, block, i);
+      if (mOpen || mWeight != nullptr) data[i] = pointsWithData(place, block, i);
     }
     joinParts(inside, signs.row);
     signs.cells = CellMask::all();
-    if (!mOpen) return;
-    BlockSigns activity;
-    joinParts(active, activity.row);
-    signs.cells = cellsWithAllCorners(activity.row);
+    if (!mOpen && mWeight == nullptr) return 0;
+    BlockSigns known;
+    joinParts(data, known.row);
+    if (!mOpen) return crossingsToUnknown(signs.row, known.row);
+    signs.cells = cellsWithAllCorners(known.row);
+    return 0;
+  }
+
+  /// Those that are active, if the surface ends where activity does, and have a weight, if there are weights.
+  [[nodiscard]] CellMask pointsWithData(const Place& place, const Coord& block, int part) const {
+    CellMask points = mOpen ? activePoints(place, block, part) : CellMask::all();
+    if (mWeight == nullptr) return points;
+    const CellMask weighed =
+        mWeight->positivePoints({block[0] + (part >> 2), block[1] + (part >> 1 & 1), block[2] + (part & 1)});
+    for (int x = 0; x < kBlockSize; ++x) points.word[x] &= weighed.word[x];
+    return points;
   }
 
   [[nodiscard]] CellMask activePoints(const Place& place, const Coord& block, int part) const {
@@ -143,6 +176,7 @@ class SurfaceBlockSearch {
   const TreeT& mTree;
   const Table& mTable;
   const Reader& mReader;
+  const GridSampler* mWeight;
   bool mOpen;
   LeafSigns<TreeT> mLeaves;
 };

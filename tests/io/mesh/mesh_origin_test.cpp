@@ -16,7 +16,7 @@ namespace {
 /// A triangle five thousand kilometres away.
 Mesh farTriangle() {
   Mesh mesh;
-  mesh.origin = {5e6, -0.5, 0};
+  mesh.origin = {5000000.5, -0.5, 0};
   mesh.positions = {{0.001F, 0, 0}, {1, 0.5F, 0}, {0, 1, 0.25F}};
   mesh.triangles = {{0, 1, 2}};
   return mesh;
@@ -26,13 +26,13 @@ TEST(WriteMesh, DoublesAreWorldCoordinates) {
   const TemporaryFolder folder;
   const Mesh mesh = farTriangle();
   writeMesh(mesh, folder / "a.obj", {.doublePrecision = true});
-  EXPECT_EQ(contentsOf(folder / "a.obj"), "# pdc\nv 5000000.001 -0.5 0\nv 5000001 0 0\nv 5000000 0.5 0.25\nf 1 2 3\n");
+  EXPECT_EQ(contentsOf(folder / "a.obj"), "# pdc\nv 5000000.501 -0.5 0\nv 5000001.5 0 0\nv 5000000.5 0.5 0.25\nf 1 2 3\n");
   writeMesh(mesh, folder / "a.ply", {.ascii = true, .doublePrecision = true});
   EXPECT_EQ(contentsOf(folder / "a.ply"),
             "ply\nformat ascii 1.0\ncomment pdc\n"
             "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-            "5000000.001 -0.5 0\n5000001 0 0\n5000000 0.5 0.25\n3 0 1 2\n");
+            "5000000.501 -0.5 0\n5000001.5 0 0\n5000000.5 0.5 0.25\n3 0 1 2\n");
 }
 
 TEST(WriteMesh, DoublesAreReadBackAsPreciselyAsTheyWere) {

@@ -190,7 +190,7 @@ TEST_F(GridSourceTest, BackgroundInsideIsClosedAroundTheOutside) {
   auto grid = sphere(8);
   for (auto it = grid->beginValueAll(); it; ++it) it.setValue(-*it);
   grid->tree().root().setBackground(-3.0F, /*updateChildNodes=*/false);
-  const MeshReport r = reportOf(grid);
+  const MeshReport r = reportOf(grid, {.inside = InsideValues::kLow});
   EXPECT_EQ(r.boundaryEdges, 0u);
   EXPECT_EQ(r.nonManifoldEdges, 0u);
   EXPECT_EQ(r.eulerNumber, 2);

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 
 #include "pdc/extract/contour.h"
+#include "pdc/mesh/mesh_report.h"
 #include "pdc/sample/sampled_source.h"
 
 namespace pdc {
@@ -195,6 +197,95 @@ TEST_F(NoiseGridsTest, SampledOnceIsTheSame) {
     EXPECT_EQ(a.positions, b.positions);
     EXPECT_EQ(a.quads, b.quads);
   }
+}
+
+/// Distances from a ball that was seen from above: what lies below, or more than 3 voxels within, has weight 0 and
+/// `unseen` as value. Where `active` is false, that is not active either.
+struct Scan {
+  explicit Scan(float unseen, bool active) {
+    values->setGridClass(openvdb::GRID_LEVEL_SET);
+    for (const openvdb::Coord& c : openvdb::CoordBBox(openvdb::Coord(-16), openvdb::Coord(16))) {
+      const auto distance = static_cast<float>(c.asVec3d().length()) - kScanned;
+      const bool seen = c.z() >= 0 && distance > -3;
+      if (seen || active) values->tree().setValueOn(c, seen ? std::min(distance, 3.0F) : unseen);
+      if (seen) weights->tree().setValueOn(c, 1 + 0.1F * static_cast<float>(c.x() & 3));
+    }
+  }
+  static constexpr float kScanned = 10;
+  FloatGrid::Ptr values = FloatGrid::create(3), weights = FloatGrid::create(0);
+};
+
+TEST_F(NoiseGridsTest, TheSurfaceEndsWhereThereIsNoWeight) {
+  constexpr double kHemisphere = 2 * 3.14159265358979 * Scan::kScanned * Scan::kScanned;
+  for (const float unseen : {3.0F, -3.0F, 0.0F})
+    for (const bool active : {true, false}) {
+      const Scan scan(unseen, active);
+      for (const Placement placement : {Placement::kCertified, Placement::kFree}) {
+        ContourReport report;
+        const GridSource source(scan.values, {.open = true, .weight = scan.weights});
+        const Mesh mesh = contour(source, {.placement = placement}, &report);
+        const MeshReport r = analyze(mesh);
+        EXPECT_EQ(r.eulerNumber, 1);  // A disc: the border is one simple loop.
+        EXPECT_EQ(r.components, 1u);
+        EXPECT_GT(r.boundaryEdges, 40u);
+        EXPECT_EQ(r.boundaryEdges, report.boundaryEdges);
+        EXPECT_EQ(r.nonManifoldEdges, 0u);
+        EXPECT_EQ(r.nonManifoldVertices, 0u);
+        EXPECT_EQ(r.misorientedEdges, 0u);
+        EXPECT_NEAR(r.area / kHemisphere, 1, 0.06);
+        EXPECT_EQ(source.crossingsWithoutData(), 0u);
+        for (const Vec3f& p : mesh.positions) ASSERT_NEAR(length(p), Scan::kScanned, 0.3);
+      }
+    }
+}
+
+TEST_F(NoiseGridsTest, ASurfaceThatIsClosedWithoutWeightIsCounted) {
+  const Scan scan(3, true);
+  const GridSource source(scan.values, {.weight = scan.weights});
+  const MeshReport closed = analyze(contour(source, {.placement = Placement::kFree}));
+  EXPECT_EQ(closed.boundaryEdges, 0u);
+  const GridSource openSource(scan.values, {.open = true, .weight = scan.weights});
+  const MeshReport open = analyze(contour(openSource, {.placement = Placement::kFree}));
+  // Each crossing has a quad, and the open surface has none beyond the data.
+  EXPECT_GT(source.crossingsWithoutData(), 400u);
+  EXPECT_LE(source.crossingsWithoutData(), closed.quads - open.quads);
+  EXPECT_GT(source.crossingsWithoutData() + 2 * open.boundaryEdges, closed.quads - open.quads);
+  EXPECT_EQ(GridSource(scan.values).crossingsWithoutData(), 0u);
+  EXPECT_EQ(GridSource(mGrid, {.weight = companion(*mGrid, 2)}).crossingsWithoutData(), 0u);
+}
+
+TEST_F(NoiseGridsTest, WeightsThatAreRefusedAreNoData) {
+  for (const float faulty : {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Scan scan(3, true);
+    for (auto it = scan.weights->beginValueAll(); it; ++it)
+      if (*it == 0) it.setValue(faulty);
+    scan.weights->tree().root().setBackground(faulty, false);
+    const MeshReport r = analyze(contour(GridSource(scan.values, {.open = true, .weight = scan.weights})));
+    EXPECT_EQ(r.eulerNumber, 1) << faulty;
+    EXPECT_GT(r.boundaryEdges, 40u) << faulty;
+  }
+}
+
+TEST_F(NoiseGridsTest, RandomHolesInTheWeightsLeaveSimpleBorders) {
+  std::mt19937 engine(3);
+  for (const int percent : {2, 10, 20}) {
+    const auto weight = companion(*mGrid, 1);
+    for (auto it = weight->beginValueOn(); it; ++it)
+      if (static_cast<int>(engine() % 100) < percent) it.setValue(0);
+    const MeshReport r = analyze(contour(GridSource(mGrid, {.open = true, .weight = weight})));
+    EXPECT_GT(r.boundaryEdges, 0u);
+    EXPECT_EQ(r.nonManifoldEdges, 0u);
+    EXPECT_EQ(r.nonManifoldVertices, 0u);
+    EXPECT_EQ(r.misorientedEdges, 0u);
+    EXPECT_EQ(r.unusedVertices, 0u);
+  }
+}
+
+TEST_F(NoiseGridsTest, WhatHasNoWeightDoesNotTellTheSide) {
+  Scan scan(-3, true);
+  scan.values->clearGridClass();
+  scan.values->tree().root().setBackground(0, true);
+  EXPECT_FALSE(GridSource(scan.values, {.weight = scan.weights}).insideIsHigher());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pdc/field/field.h"
 
@@ -25,6 +26,7 @@ struct Scene {
   bool acceptNonFinite = false;       ///< Where the field is not finite it is outside; see FieldSourceOptions.
   FieldPtr field;                     ///< Never null.
   SceneExpectation expect;
+  std::vector<std::string> warnings;  ///< Where a grid's values may mean something else: a line each.
 };
 
 /// Reads a scene (YAML; the format is described in scenes/README.md). Relative paths inside are taken from the scene's

@@ -1,4 +1,4 @@
-#include "sample/vdb/contourable_grids.h"
+#include "sample/meaning/contourable_grids.h"
 
 #include <gtest/gtest.h>
 
