@@ -77,9 +77,10 @@ std::size_t countOnBox(const Input& input, const Mesh& mesh) {
   if (!input.cut) return 0;
   const double near = kNear * input.source->map().voxelSize();
   return static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3f& p) {
+    const Vec3d world = mesh.origin + vecCast<double>(p);
     bool on = false;
     for (int axis = 0; axis < 3; ++axis)
-      on = on || p[axis] < input.cut->lo[axis] + near || p[axis] > input.cut->hi[axis] - near;
+      on = on || world[axis] < input.cut->lo[axis] + near || world[axis] > input.cut->hi[axis] - near;
     return on;
   }));
 }

@@ -202,6 +202,11 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
   command.add_option("--max-memory", request.maxMemory, "Most memory to use, as 8GB or 500MB (what the machine has)")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(true))
+      ->transform(CLI::Validator(
+          [](const std::string& text) {
+            return text.starts_with('-') ? fmt::format("'{}' is less than 0", text) : std::string();
+          },
+          ""))
       ->group(group);
   command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
   addThreads(command, request.threads)->group(group);

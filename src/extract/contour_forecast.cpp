@@ -21,7 +21,7 @@ double contourMemory(double vertices, const ContourOptions& options) {
 }
 
 void checkMemory(double bytes, double vertices, const ContourOptions& options) {
-  constexpr double kAlwaysThere = 32e6;  // So that small meshes need not ask the system.
+  constexpr double kAlwaysThere = 32e6;  // Small meshes need not ask the system.
   if (options.maxMemory == 0 && bytes <= kAlwaysThere) return;
   const auto inUse = static_cast<double>(memoryInUse());
   const auto available = static_cast<double>(availableMemory());

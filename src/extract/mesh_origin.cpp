@@ -1,9 +1,12 @@
 #include "extract/mesh_origin.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "pdc/error.h"
 #include "pdc/extract/contour.h"
 #include "pdc/math/box.h"
 #include "sample/block_origin.h"
@@ -52,13 +55,25 @@ double exactStep(double largest) {
   return std::ldexp(1.0, std::ilogb(largest) + 1 - std::numeric_limits<double>::digits);
 }
 
+/// \throws Error if single precision cannot hold coordinates relative to the origin.
+void checkReach(const Box& box, const Vec3d& origin) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  const double reach = farthest({box.lo - origin, box.hi - origin});
+  if (!(reach < kMost))
+    throw Error(
+        fmt::format("coordinates relative to the origin ({}, {}, {}) are up to {:.3g}, single precision holds "
+                    "up to {:.3g}",
+                    origin.x, origin.y, origin.z, reach, kMost));
+}
+
 }  // namespace
 
 MeshOrigin meshOrigin(const LatticeMap& map, const SurfaceBlocks& blocks, const std::optional<Vec3d>& wanted,
                       bool exactSums) {
-  if (blocks.coords.empty() || (wanted && !exactSums)) return {.origin = wanted.value_or(Vec3d{})};
+  if (blocks.coords.empty() || wanted == Vec3d{}) return {.origin = wanted.value_or(Vec3d{})};
   const Box box = worldBox(map, blocks);
   MeshOrigin result{.origin = wanted ? *wanted : chosenOrigin(box, map.voxelSize())};
+  if (wanted) checkReach(box, *wanted);
   if (exactSums && result.origin != Vec3d{}) {
     const Vec3d& o = result.origin;
     result.step = exactStep(std::max({farthest(box), std::abs(o.x), std::abs(o.y), std::abs(o.z)}));

@@ -19,7 +19,7 @@
 namespace pdc {
 namespace {
 
-/// Of a long expression what stands about `position`.
+/// What stands about `position` in a long expression.
 std::string excerpt(const std::string& expression, std::size_t position) {
   constexpr std::size_t kAround = 40, kLongest = 2 * kAround + 20;
   if (expression.size() <= kLongest) return expression;

@@ -14,7 +14,7 @@ double largestEntry(const Vec3d& p) { return std::max({std::abs(p.x), std::abs(p
 
 struct LongestEdge {
   Vec3d edge{}, normal{};    ///< The normal is as long as twice the triangle's area.
-  double squaredLength = 0;  ///< Of the edge.
+  double squaredLength = 0;  ///< The square of the edge's length.
 
   explicit LongestEdge(const TriangleCorners& t) {
     for (int k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@ struct Picture {
   const ViewMesh& mesh;
   const DividedTriangles& divided;
   const RayScene& rays;       ///< At the mesh's triangles, or those of `divided.others` where it has any lists.
-  const RayScene& occluders;  ///< The same rays, or those at `divided.occluders`.
+  const RayScene& occluders;  ///< What casts shadows: the scene itself, or `divided.occluders`.
   const RenderOptions& options;
   float eyeHeight;  ///< The z from which rays start, above the whole mesh.
 };

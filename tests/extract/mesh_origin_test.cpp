@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "extract/certify/sound_checks.h"
+#include "pdc/error.h"
 #include "pdc/field/primitives.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/vdb/grid_source.h"
@@ -103,6 +104,12 @@ TEST_F(MeshOrigin, OneThatIsNotFiniteIsTheCallersMistake) {
   const FieldSource source(sphere({0, 0, 0}, 1), {.box = {{-2, -2, -2}, {2, 2, 2}}, .voxelSize = 0.5});
   EXPECT_THROW((void)contour(source, {.origin = Vec3d{0, std::numeric_limits<double>::infinity(), 0}}),
                std::invalid_argument);
+}
+
+TEST_F(MeshOrigin, OneBeyondSinglePrecisionIsRefused) {
+  const FieldSource source(sphere({0, 0, 0}, 1), {.box = {{-2, -2, -2}, {2, 2, 2}}, .voxelSize = 0.5});
+  EXPECT_THROW((void)contour(source, {.origin = Vec3d{0, 1e39, 0}}), Error);
+  EXPECT_NO_THROW((void)contour(source, {.origin = Vec3d{0, 1e37, 0}}));
 }
 
 }  // namespace

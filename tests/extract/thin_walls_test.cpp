@@ -9,7 +9,7 @@
 namespace pdc {
 namespace {
 
-/// Of a spherical shell about `center`; lengths are in voxels.
+/// The distance to a spherical shell about `center`; lengths are in voxels.
 MeshReport reportOfShell(const Vec3d& center, double radius, double thickness) {
   const double side = radius + 3;
   const FieldSource source(shell(sphere(center, radius), thickness),

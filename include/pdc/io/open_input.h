@@ -63,7 +63,7 @@ struct Input {
   double valueNoise = 0;         ///< Standard deviation of the values' noise in voxels where it was estimated; else 0.
   std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite; they count as 0.
   std::size_t crossingsWithoutData = 0;  ///< See GridSource.
-  std::optional<GridMeaning> meaning{};  ///< Of a grid: how it is read, and why. Empty for a scene.
+  std::optional<GridMeaning> meaning{};  ///< How a grid is read, and why. Empty for a scene.
   /// Where the data may mean something else than it was taken for or makes a poor surface: a line each, which names the
   /// remedy by the program's option.
   std::vector<std::string> warnings{};

@@ -15,7 +15,7 @@ namespace pdc {
 /// does not exist, or if no face has finite corners; Cancelled.
 [[nodiscard]] Buffer<double> distances(std::span<const Vec3f> points, const Mesh& mesh, const Monitor& monitor = {});
 
-/// The same from each vertex of a mesh, whose origin may be another one.
+/// Distances from each vertex of a mesh, whose origin may be another one.
 [[nodiscard]] Buffer<double> vertexDistances(const Mesh& from, const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace pdc

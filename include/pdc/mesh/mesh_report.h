@@ -26,7 +26,7 @@ struct MeshReport {
   long long eulerNumber = 0;          ///< V - E + F, unused vertices left out.
   double area = 0;                    ///< World units squared.
   double volume = 0;                  ///< Signed, by the divergence theorem; positive if faces point outwards.
-  Box bounds{};  ///< Of the used vertices that are finite, in world coordinates; zero if there are none.
+  Box bounds{};  ///< Holds the used vertices that are finite, in world coordinates; zero if there are none.
 };
 
 /// Runs in parallel; the result does not depend on the number of threads. \throws Error if a face names a vertex that

@@ -22,7 +22,7 @@ class LatticeMap {
 
   [[nodiscard]] bool affine() const { return !mPosition; }
   [[nodiscard]] Vec3d position(const Vec3d& x) const { return affine() ? mLinear * x + mTranslation : mPosition(x); }
-  /// The same map with the world's origin at `origin`. \param step of rounded(); 0, or a power of two.
+  /// This map with the world's origin at `origin`. \param step of rounded(); 0, or a power of two.
   [[nodiscard]] LatticeMap relativeTo(const Vec3d& origin, double step) const;
   /// A position as meshes hold it: in single precision, its coordinates multiples of step() unless that is 0. Each
   /// coordinate of the result is a function of that coordinate that does not decrease.

@@ -13,7 +13,7 @@ namespace pdc::detail {
 /// shows that single precision does not serve, the bytes are read again.
 struct ParsedMesh {
   Mesh mesh;
-  Narrowing narrowing;                ///< Of the coordinates as they are in the file.
+  Narrowing narrowing;                ///< What narrowing does to the coordinates of the file.
   bool splitsQuads = false;           ///< Whether the file's quads are known to be split at their first corners.
   std::vector<std::string> warnings;  ///< What was not read or is odd.
 };

@@ -29,7 +29,7 @@ struct PairSearch::Leaf {
   std::array<std::uint32_t, TriangleTree::kLeaf> numbers;
   std::array<Triangle, TriangleTree::kLeaf> vertices;
   std::array<TriangleCorners, TriangleTree::kLeaf> corners;
-  std::array<BoxF, TriangleTree::kLeaf> boxes;  ///< Those of the shapes.
+  std::array<BoxF, TriangleTree::kLeaf> boxes;  ///< The boxes of the shapes.
 
   Leaf(const PairSearch& search, std::size_t leaf) : hubs(search.mTree.leafHubs(leaf)) {
     const SearchedShapes shapes = search.mShapes;  // A copy, which the loop cannot change.

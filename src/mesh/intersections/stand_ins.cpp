@@ -14,7 +14,7 @@ Vec3d between(const Vec3f& from, const Vec3f& to) { return vecCast<double>(to) -
 std::optional<TriangleCorners> arcStandIn(const Vec3f& hub, const Vec3f& a, const Vec3f& b) {
   const Vec3d toA = between(hub, a), toB = between(hub, b);
   const Vec3d p = toA * (1 / length(toA)), q = toB * (1 / length(toB));
-  constexpr double kLeast = 1e-3;  // Of 1 + the cosine of the angle: up to 177 degrees.
+  constexpr double kLeast = 1e-3;  // The least 1 + cosine of the angle: up to 177 degrees.
   const double denominator = 1 + dot(p, q);
   if (!(denominator > kLeast)) return std::nullopt;
   // An arc lies between its chord and the tangents at its ends, which meet here.

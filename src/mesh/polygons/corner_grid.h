@@ -53,7 +53,7 @@ class CornerGrid {
   }
 
  private:
-  static constexpr double kRounding = 1e-6;  ///< Of a cell; much more than the error of its number.
+  static constexpr double kRounding = 1e-6;  ///< In cells; much more than the error of a cell's number.
 
   struct Range {
     double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();

@@ -173,7 +173,7 @@ void EarClipper::clipRest() {
   mLeft = 0;
 }
 
-/// Those that a corner blocked are looked at again.
+/// Ears that a corner blocked are looked at again.
 void EarClipper::wake(Index i) {
   for (Index k = std::exchange(mFirstWaiting[i], kNone); k != kNone; k = mWaiting[k].next)
     if (mRemoved[mWaiting[k].ear] == 0) enqueue(mWaiting[k].ear);

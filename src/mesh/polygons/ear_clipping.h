@@ -24,8 +24,8 @@ class EarClipper {
   void triangulate(std::span<const std::uint32_t> polygon, const Buffer<Vec3f>& positions, Triangle* out);
 
  private:
-  using Index = std::uint32_t;  ///< Of a corner of the polygon.
-  /// Of the surroundings of a corner: a flat one lies between its neighbours, a spike goes back the way it came.
+  using Index = std::uint32_t;  ///< Numbers a corner of the polygon.
+  /// What surrounds a corner: a flat one lies between its neighbours, a spike goes back the way it came.
   enum class Shape : std::uint8_t { kConvex, kReflex, kFlat, kSpike };
   enum class Test { kClosed, kInside };
   struct Waiting {
@@ -62,7 +62,7 @@ class EarClipper {
   std::vector<Waiting> mWaiting;  ///< Lists of ears, one for each corner that blocks them.
   std::vector<Index> mFirstWaiting;
   std::size_t mUnsafeTests = 0;
-  CornerGrid mGrid;  ///< Those that are not convex at the beginning; clipping makes no others.
+  CornerGrid mGrid;  ///< Corners that are not convex at the beginning; clipping makes no others.
   std::vector<Index> mNotConvex;
 };
 

@@ -56,7 +56,7 @@ class ActiveValues {
     return some;
   }
 
-  /// Of all values, in parallel.
+  /// The range of all values, in parallel.
   [[nodiscard]] ValueRange range() const {
     ValueRange range = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>(0, mLeaves.size(), 64), ValueRange{},
@@ -82,7 +82,7 @@ class ActiveValues {
     const auto farSide = [&](const openvdb::CoordBBox& box) {
       return std::int64_t{sign} * (last ? box.max() : box.min())[axis];
     };
-    std::int64_t reach = kNowhere;  // Of the layer, times the sign.
+    std::int64_t reach = kNowhere;  // The layer's coordinate, times the sign.
     for (const Tile& tile : mTiles) reach = std::max(reach, farSide(tile.box));
     for (std::int64_t limit = -kNowhere; reach < limit;) {
       // All leaves that end in the same place, as far out as there are some below the limit.

@@ -103,7 +103,7 @@ class LeafSample {
   double mBackground;
   ValueRange mRange;
   std::size_t mValues = 0, mBeyond = 0;
-  std::vector<double> mSlopes, mSizes;  ///< Of the same values.
+  std::vector<double> mSlopes, mSizes;  ///< One of each for every value that has a slope.
   std::array<std::array<std::size_t, 2>, 2> mEnds{};
 };
 

@@ -17,10 +17,10 @@ struct GridEvidence {
   double background = 0;
   double voxelSize = 1;           ///< World units.
   bool mask = false;              ///< The grid is of booleans, and nothing below was looked at.
-  double low = 0, high = 0;       ///< Of active values and the background. See gatherEvidence().
+  double low = 0, high = 0;       ///< The range of active values and the background; see gatherEvidence().
   std::vector<double> outermost;  ///< The active values farthest along each axis, up and down, in any order.
 
-  // Of a sample of the leaves:
+  // What a sample of the leaves says:
   /// Median length of the gradient, per world unit; 0 if there are too few values beside which all are active.
   double slope = 0;
   /// Median of |length / slope − 1|. Infinite where slope is 0.

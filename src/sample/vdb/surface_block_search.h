@@ -140,7 +140,7 @@ class SurfaceBlockSearch {
     return 0;
   }
 
-  /// Those that are active, if the surface ends where activity does, and have a weight, if there are weights.
+  /// Points that are active, if the surface ends where activity does, and have a weight, if there are weights.
   [[nodiscard]] CellMask pointsWithData(const Place& place, const Coord& block, int part) const {
     CellMask points = mOpen ? activePoints(place, block, part) : CellMask::all();
     if (mWeight == nullptr) return points;

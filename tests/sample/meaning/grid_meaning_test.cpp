@@ -25,8 +25,8 @@ using openvdb::FloatGrid;
 using Doubts = std::vector<GridDoubt>;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kHalf = 16;      // Of the edge of dense grids, in voxels.
-constexpr float kRadius = 10;  // Of all balls.
+constexpr int kHalf = 16;      // Half the edge of dense grids, in voxels.
+constexpr float kRadius = 10;  // The radius of all balls.
 constexpr double ballVolume(double radius) { return 4.0 / 3.0 * kPi * radius * radius * radius; }
 constexpr double kVolume = ballVolume(kRadius);
 

@@ -62,7 +62,7 @@ struct GridMeaning {
   double slope = 0;
   /// How far from the surface a level set's values end, in voxels; 0 for other grids and where it is not known.
   double halfWidth = 0;
-  double lowest = 0, highest = 0;  ///< Of the values that were looked at.
+  double lowest = 0, highest = 0;  ///< The range of the values that were looked at.
   std::vector<GridDoubt> doubts;   ///< In the order of the enumeration.
 };
 
