@@ -82,7 +82,7 @@ TEST(CheckCommand, OpenMeshesMayBeAllowed) {
 
 TEST(CheckCommand, AMeshWithoutFacesIsNotClean) {
   const TemporaryFolder folder;
-  for (const std::string& content : {"# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"}) {
+  for (const std::string content : {"# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"}) {
     const std::string file = folder.write("empty.obj", content);
     const Checked checked = check(file);
     EXPECT_EQ(checked.exitCode, 1);

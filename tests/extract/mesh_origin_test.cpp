@@ -27,7 +27,8 @@ class MeshOrigin : public testing::Test {
 
   /// A level set of a sphere about kFar.
   static openvdb::FloatGrid::Ptr farSphere() {
-    const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(kRadius, openvdb::Vec3f(0), kVoxel, 3);
+    const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
+        static_cast<float>(kRadius), openvdb::Vec3f(0), static_cast<float>(kVoxel), 3);
     grid->transform().postTranslate(openvdb::Vec3d(kFar.x, kFar.y, kFar.z));
     return grid;
   }
@@ -70,7 +71,8 @@ TEST_F(MeshOrigin, NearSurfacesKeepTheWorlds) {
 
 TEST_F(MeshOrigin, ExactSumsAreExact) {
   const GridSource source(farSphere());
-  for (const std::optional<Vec3d>& origin : {std::optional<Vec3d>(), std::optional(kFar + Vec3d{1, 1, 1} / 3)}) {
+  for (const std::optional<Vec3d>& origin :
+       {std::optional<Vec3d>(), std::optional(kFar + Vec3d{1, 1, 1} * (1.0 / 3))}) {
     ContourReport report;
     const Mesh mesh = contour(source, {.origin = origin, .exactSums = true}, &report);
     expectSound(mesh, report);

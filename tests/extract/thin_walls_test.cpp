@@ -9,7 +9,7 @@
 namespace pdc {
 namespace {
 
-/// The distance to a spherical shell about `center`; lengths are in voxels.
+/// What the mesh is of a spherical shell about `center`; lengths are in voxels.
 MeshReport reportOfShell(const Vec3d& center, double radius, double thickness) {
   const double side = radius + 3;
   const FieldSource source(shell(sphere(center, radius), thickness),

@@ -354,7 +354,9 @@ TEST_F(GridSourceTest, TilesThatAreNotFiniteAreRefusedTheBackgroundIsNot) {
   EXPECT_THROW((void)contour(GridSource(grid)), Error);
   auto one = FloatGrid::create(std::numeric_limits<float>::infinity());
   one->tree().addTile(1, openvdb::Coord(0, 0, 0), -1, true);
-  EXPECT_FALSE(contour(GridSource(one, {.hermite = HermiteMode::kGradient})).empty());
+  const GridSourceOptions solid{
+      .hermite = HermiteMode::kGradient, .gridClass = GridClass::kLevelSet, .inside = InsideValues::kLow};
+  EXPECT_FALSE(contour(GridSource(one, solid)).empty());
 }
 
 TEST_F(GridSourceTest, RefusesIndicesThatWouldOverflow) {
