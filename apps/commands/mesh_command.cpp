@@ -42,6 +42,7 @@ void checkPrecision(const Input& input, const Mesh& mesh, MeshRun& run) {
   for (const Vec3f& p : mesh.positions) {
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
+  if (!std::isfinite(farthest)) throw Error("coordinates lie beyond what single precision holds, 3.4e38");
   const double spacing = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
   const double inVoxels = spacing / input.source->map().voxelSize();
   if (inVoxels > kMostRounding) {

@@ -55,15 +55,15 @@ double exactStep(double largest) {
   return std::ldexp(1.0, std::ilogb(largest) + 1 - std::numeric_limits<double>::digits);
 }
 
-/// \throws Error if single precision cannot hold coordinates relative to the origin.
-void checkReach(const Box& box, const Vec3d& origin) {
-  constexpr double kMost = std::numeric_limits<float>::max();
+/// \throws Error if single precision cannot tell neighbouring voxels apart relative to the origin.
+void checkReach(const Box& box, const Vec3d& origin, double voxelSize) {
   const double reach = farthest({box.lo - origin, box.hi - origin});
-  if (!(reach < kMost))
+  const double spacing = reach * std::numeric_limits<float>::epsilon();
+  if (!(spacing < voxelSize))
     throw Error(
-        fmt::format("coordinates relative to the origin ({}, {}, {}) are up to {:.3g}, single precision holds "
-                    "up to {:.3g}",
-                    origin.x, origin.y, origin.z, reach, kMost));
+        fmt::format("the origin ({}, {}, {}) is up to {:.3g} away from the surface, where single precision has "
+                    "steps of {:.2g} voxels, at most 1 is allowed",
+                    origin.x, origin.y, origin.z, reach, spacing / voxelSize));
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ MeshOrigin meshOrigin(const LatticeMap& map, const SurfaceBlocks& blocks, const 
   if (blocks.coords.empty() || wanted == Vec3d{}) return {.origin = wanted.value_or(Vec3d{})};
   const Box box = worldBox(map, blocks);
   MeshOrigin result{.origin = wanted ? *wanted : chosenOrigin(box, map.voxelSize())};
-  if (wanted) checkReach(box, *wanted);
+  if (wanted) checkReach(box, *wanted, map.voxelSize());
   if (exactSums && result.origin != Vec3d{}) {
     const Vec3d& o = result.origin;
     result.step = exactStep(std::max({farthest(box), std::abs(o.x), std::abs(o.y), std::abs(o.z)}));

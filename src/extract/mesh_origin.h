@@ -16,7 +16,7 @@ struct MeshOrigin {
 /// \param wanted the origin, or nothing to have it chosen: zero as long as single precision is finer than
 /// kMostRounding there, else near the centre of the blocks. \param exactSums asks for a step at which origin + position
 /// is exact in double precision; the origin is then rounded to it. \throws Error if single precision
-/// cannot hold coordinates relative to a given origin.
+/// cannot tell neighbouring voxels apart relative to a given origin.
 [[nodiscard]] MeshOrigin meshOrigin(const LatticeMap& map, const SurfaceBlocks& blocks,
                                     const std::optional<Vec3d>& wanted, bool exactSums);
 

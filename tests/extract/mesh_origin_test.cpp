@@ -108,10 +108,11 @@ TEST_F(MeshOrigin, OneThatIsNotFiniteIsTheCallersMistake) {
                std::invalid_argument);
 }
 
-TEST_F(MeshOrigin, OneBeyondSinglePrecisionIsRefused) {
+TEST_F(MeshOrigin, OneFromWhichVoxelsCannotBeToldApartIsRefused) {
   const FieldSource source(sphere({0, 0, 0}, 1), {.box = {{-2, -2, -2}, {2, 2, 2}}, .voxelSize = 0.5});
   EXPECT_THROW((void)contour(source, {.origin = Vec3d{0, 1e39, 0}}), Error);
-  EXPECT_NO_THROW((void)contour(source, {.origin = Vec3d{0, 1e37, 0}}));
+  EXPECT_THROW((void)contour(source, {.origin = Vec3d{0, 1e7, 0}}), Error);
+  EXPECT_NO_THROW((void)contour(source, {.origin = Vec3d{0, 1e6, 0}}));
 }
 
 }  // namespace

@@ -139,6 +139,8 @@ struct BlockVertexSolver::Scratch {
     if (map.affine()) {
       for (int lane = 0; lane < used; ++lane)
         position[lane] = {positions[lane][0], positions[lane][1], positions[lane][2]};
+      if (map.step() > 0)
+        for (int lane = 0; lane < used; ++lane) position[lane] = map.rounded(vecCast<double>(position[lane]));
     } else {
       for (int lane = 0; lane < used; ++lane)
         position[lane] = worldPosition(block, sampler.patches()[first + lane], vecCast<double>(quadrics[lane].x));
