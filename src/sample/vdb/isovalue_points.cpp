@@ -1,5 +1,6 @@
 #include "sample/vdb/isovalue_points.h"
 
+#include <limits>
 #include <vector>
 
 #include "math/lane_loops.h"
@@ -16,17 +17,21 @@ bool anyAtEnd(const HermiteBlock& hermite, int size) {
   return any != 0;
 }
 
+/// Below zero and finite: other values are not inside.
+bool isInside(float v) { return v < 0 && v >= std::numeric_limits<float>::lowest(); }
+
 /// The mean of the values that a point lies between, along those axes that `known` has and that have both inside; 0 if
 /// there are none.
 float meanBetween(const float* p, const std::array<int, 3>& step, const std::array<bool, 3>& known) {
-  float sum = 0;
+  double sum = 0;  // Sums of large floats may overflow.
   int count = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!known[axis] || !(p[-step[axis]] < 0 && p[step[axis]] < 0)) continue;
-    sum += p[-step[axis]] + p[step[axis]];
+    const float below = p[-step[axis]], above = p[step[axis]];
+    if (!known[axis] || !isInside(below) || !isInside(above)) continue;
+    sum += double{below} + double{above};
     count += 2;
   }
-  return count > 0 ? sum / static_cast<float>(count) : 0;
+  return count > 0 ? static_cast<float>(sum / count) : 0;
 }
 
 bool hasZero(const float* row) {
