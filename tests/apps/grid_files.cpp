@@ -41,7 +41,7 @@ openvdb::FloatGrid::Ptr companion(const openvdb::FloatGrid& sphere, const char* 
 void addNoiseGrids(const openvdb::FloatGrid& sphere, openvdb::GridPtrVec& grids) {
   grids.push_back(companion(sphere, "sigma", 0, 0.02F));
   grids.push_back(companion(sphere, "weight", 1, 1));
-  grids.push_back(companion(sphere, "halved", 1, 0));
+  grids.push_back(companion(sphere, "halved", 0, 1));
   grids.push_back(companion(sphere, "faulty", -1, -1));
   grids.push_back(companion(sphere, "moved", 1, 1));
   grids.back()->setTransform(openvdb::math::Transform::createLinearTransform(0.3));
