@@ -26,8 +26,9 @@ float meanBetween(const float* p, const std::array<int, 3>& step, const std::arr
   double sum = 0;  // Sums of large floats may overflow.
   int count = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!known[axis]) continue;  // There may be nothing to read.
     const float below = p[-step[axis]], above = p[step[axis]];
-    if (!known[axis] || !isInside(below) || !isInside(above)) continue;
+    if (!isInside(below) || !isInside(above)) continue;
     sum += double{below} + double{above};
     count += 2;
   }
