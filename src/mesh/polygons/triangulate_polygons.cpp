@@ -3,8 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "mesh/polygons/ear_clipping.h"
 #include "mesh/mesh_checks.h"
+#include "mesh/polygons/ear_clipping.h"
 
 namespace pdc {
 

@@ -14,9 +14,9 @@
 #include <tuple>
 
 #include "mesh/connectivity.h"
-#include "mesh/polygons/ear_clipping.h"
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
+#include "mesh/polygons/ear_clipping.h"
 
 namespace pdc {
 namespace {

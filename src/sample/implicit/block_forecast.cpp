@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 #include "sample/implicit/block_signs.h"
@@ -20,19 +19,6 @@ void thinOut(std::vector<Coord>& cubes) {
   if (cubes.size() <= kMostCubes) return;
   for (std::size_t i = 0; i < kMostCubes; ++i) cubes[i] = cubes[i * cubes.size() / kMostCubes];
   cubes.resize(kMostCubes);
-}
-
-/// Keeps the cubes whose bounds do not exclude a surface.
-void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes) {
-  std::vector<std::uint8_t> keep(cubes.size());
-  tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) {
-    monitor.throwIfStopped();
-    keep[i] = !oneSided(boundOf(search, cubes[i], level));
-  });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < cubes.size(); ++i)
-    if (keep[i] != 0) cubes[kept++] = cubes[i];
-  cubes.resize(kept);
 }
 
 /// How many of a block's own edges change sign.

@@ -29,15 +29,6 @@ void forEach(std::size_t size, const Monitor& monitor, Body&& body) {
   });
 }
 
-void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes) {
-  std::vector<std::uint8_t> drop(cubes.size());
-  forEach(cubes.size(), monitor, [&](std::size_t i) { drop[i] = oneSided(boundOf(search, cubes[i], level)); });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < cubes.size(); ++i)
-    if (drop[i] == 0) cubes[kept++] = cubes[i];
-  cubes.resize(kept);
-}
-
 /// All blocks whose parents the field's bounds do not exclude, sorted.
 std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor) {
   const Coord blocks = blockCounts(search);

@@ -1,7 +1,10 @@
 #include "sample/implicit/cube_descent.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace pdc::detail {
@@ -38,6 +41,18 @@ std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Co
       if (within) result.push_back(child);
     }
   return result;
+}
+
+void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes) {
+  std::vector<std::uint8_t> drop(cubes.size());
+  tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) {
+    monitor.throwIfStopped();
+    drop[i] = oneSided(boundOf(search, cubes[i], level));
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+    if (drop[i] == 0) cubes[kept++] = cubes[i];
+  cubes.resize(kept);
 }
 
 int topLevel(const Coord& blocks) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "pdc/monitor.h"
 #include "sample/implicit/block_search.h"
 
 /// The descent from one box over the lattice to its blocks, by cubes of 2^level blocks along an axis.
@@ -22,5 +23,8 @@ namespace pdc::detail {
 
 /// The cubes of the next finer `level` that reach into the lattice.
 [[nodiscard]] std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks);
+
+/// Keeps the cubes whose bounds do not exclude a surface. Runs in parallel. \throws Cancelled
+void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, std::vector<Coord>& cubes);
 
 }  // namespace pdc::detail
