@@ -199,7 +199,8 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
   command.add_option("--json", request.json, "Report for programs; - is standard output")
       ->type_name("FILE")
       ->group(group);
-  command.add_option("--max-memory", request.maxMemory, "Most memory to use, as 8GB or 500MB (what the machine has)")
+  command
+      .add_option("--max-memory", request.maxMemory, "Most memory to use, as 8GB or 500MB\n(0: what the machine has)")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(true))
       ->transform(CLI::Validator(

@@ -1,42 +1,9 @@
 #include "pdc/extract/contour_forecast.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "extract/contour_memory.h"
-#include "parallel/machine_memory.h"
 #include "parallel/with_threads.h"
-#include "pdc/error.h"
 
 namespace pdc {
-namespace detail {
-
-double contourMemory(double vertices, const ContourOptions& options) {
-  constexpr double kMesh = 50, kNormals = 12, kEstimates = 40, kTriangles = 24, kQuadrics = 40;
-  const double perVertex = kMesh + (options.normals ? kNormals : 0) +
-                           (options.confidence || options.ranks ? kEstimates : 0) +
-                           (options.triangles ? kTriangles : 0) + (options.quadrics ? kQuadrics : 0);
-  return perVertex * vertices;
-}
-
-void checkMemory(double bytes, double vertices, const ContourOptions& options) {
-  constexpr double kAlwaysThere = 32e6;  // Small meshes need not ask the system.
-  if (options.maxMemory == 0 && bytes <= kAlwaysThere) return;
-  const auto inUse = static_cast<double>(memoryInUse());
-  const auto available = static_cast<double>(availableMemory());
-  const double machine = available > 0 ? inUse + available : bytes + inUse;
-  const double limit = options.maxMemory > 0 ? std::min(static_cast<double>(options.maxMemory), machine) : machine;
-  if (bytes + inUse <= limit) return;
-  constexpr double kMega = 1e6;
-  throw Error(fmt::format(
-      "about {:.3g} million vertices take about {:.0f} MB of memory, more than the {:.0f} MB that {}; a coarser "
-      "lattice "
-      "takes less",
-      vertices / kMega, (bytes + inUse) / kMega, limit / kMega, limit < machine ? "are allowed" : "the machine has"));
-}
-
-}  // namespace detail
 
 std::optional<ContourForecast> forecastContour(const HermiteSource& source, const ContourOptions& options,
                                                const Monitor& monitor) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/nearest_multiple.h"
 #include "pdc/error.h"
 #include "pdc/extract/contour.h"
 #include "pdc/math/box.h"
@@ -29,25 +30,15 @@ Box worldBox(const LatticeMap& map, const SurfaceBlocks& blocks) {
   return box;
 }
 
-double farthest(const Box& box) {
-  double most = 0;
-  for (int axis = 0; axis < 3; ++axis) most = std::max({most, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
-  return most;
-}
-
-Vec3d roundedTo(double step, const Vec3d& p) {
-  return {std::nearbyint(p.x / step) * step, std::nearbyint(p.y / step) * step, std::nearbyint(p.z / step) * step};
-}
-
 /// Near the centre, on a power of two that is coarse beside the box: then it has few digits.
 Vec3d chosenOrigin(const Box& box, double voxelSize) {
-  const double reach = farthest(box);
+  const double reach = largestEntry(box);
   const double spacing = reach * std::numeric_limits<float>::epsilon();
   if (!(spacing > kMostRounding * voxelSize)) return {};
   const Vec3d size = box.hi - box.lo;
   constexpr int kEighth = -3;
   const double unit = std::ldexp(1.0, std::ilogb(std::max({size.x, size.y, size.z})) + kEighth);
-  return roundedTo(unit, box.center());
+  return nearestMultiple(box.center(), unit);
 }
 
 /// The finest power of two of which all sums up to `largest` in size are exact multiples in double precision.
@@ -57,7 +48,7 @@ double exactStep(double largest) {
 
 /// \throws Error if single precision cannot tell neighbouring voxels apart relative to the origin.
 void checkReach(const Box& box, const Vec3d& origin, double voxelSize) {
-  const double reach = farthest({box.lo - origin, box.hi - origin});
+  const double reach = largestEntry(Box{box.lo - origin, box.hi - origin});
   const double spacing = reach * std::numeric_limits<float>::epsilon();
   if (!(spacing < voxelSize))
     throw Error(
@@ -76,8 +67,8 @@ MeshOrigin meshOrigin(const LatticeMap& map, const SurfaceBlocks& blocks, const 
   if (wanted) checkReach(box, *wanted, map.voxelSize());
   if (exactSums && result.origin != Vec3d{}) {
     const Vec3d& o = result.origin;
-    result.step = exactStep(std::max({farthest(box), std::abs(o.x), std::abs(o.y), std::abs(o.z)}));
-    result.origin = roundedTo(result.step, o);
+    result.step = exactStep(std::max(largestEntry(box), largestEntry(o)));
+    result.origin = nearestMultiple(o, result.step);
   }
   return result;
 }

@@ -13,9 +13,6 @@ namespace pdc::detail {
 /// Relative room for rounding in a bound: thousands of times what a field's own arithmetic loses.
 inline constexpr double kRoundingSlack = 1e-12;
 
-inline double largestEntry(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-inline double largestEntry(const Box& box) { return std::max(largestEntry(box.lo), largestEntry(box.hi)); }
-
 /// The range with room for the rounding of a value computed from numbers up to `magnitude`; whole() for NaN.
 inline Interval widened(Interval range, double magnitude) {
   const Interval wide{range.lo - kRoundingSlack * (magnitude + std::abs(range.lo)),

@@ -10,8 +10,6 @@ namespace {
 /// More than the rounding errors of a few products and sums of numbers up to 1.
 constexpr double kRounding = 1e-13;
 
-double largestEntry(const Vec3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 struct LongestEdge {
   Vec3d edge{}, normal{};    ///< The normal is as long as twice the triangle's area.
   double squaredLength = 0;  ///< The square of the edge's length.

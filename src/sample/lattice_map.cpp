@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "math/nearest_multiple.h"
 #include "pdc/error.h"
 
 namespace pdc {
@@ -64,9 +65,6 @@ LatticeMap LatticeMap::relativeTo(const Vec3d& origin, double step) const {
   return moved;
 }
 
-Vec3d LatticeMap::onStep(const Vec3d& p) const {
-  return {std::nearbyint(p.x / mStep) * mStep, std::nearbyint(p.y / mStep) * mStep,
-          std::nearbyint(p.z / mStep) * mStep};
-}
+Vec3d LatticeMap::onStep(const Vec3d& p) const { return detail::nearestMultiple(p, mStep); }
 
 }  // namespace pdc

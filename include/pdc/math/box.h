@@ -44,6 +44,8 @@ struct BasicBox {
     return sum;
   }
   friend constexpr bool operator==(const BasicBox&, const BasicBox&) = default;
+  /// The largest size of a coordinate of its points. The box must not be empty.
+  friend T largestEntry(const BasicBox& box) { return std::max(largestEntry(box.lo), largestEntry(box.hi)); }
 };
 
 using Box = BasicBox<double>;

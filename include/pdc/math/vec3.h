@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace pdc {
@@ -41,6 +42,12 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
 template <typename T>
 T length(const Vec3<T>& a) {
   return std::sqrt(dot(a, a));
+}
+
+/// The maximum norm; that of the other entries where one is NaN, unless that is x.
+template <typename T>
+T largestEntry(const Vec3<T>& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
 /// Every entry converted as static_cast does.

@@ -59,7 +59,7 @@ class PlacedField final : public Field {
     // Boxes about turned boxes grow from one rotation to the next, the reach about the centre does not. It is left out
     // for a box that is hardly more than a point, as the centre is here, or else nested rotations would double the work
     // each time.
-    const bool pointLike = box.radius() <= kPointLike * detail::largestEntry(box);
+    const bool pointLike = box.radius() <= kPointLike * largestEntry(box);
     if (!mAligned && !pointLike && std::isfinite(slope)) {
       const Interval atCenter = mField->bound({local.center(), local.center()});
       const double reach = slope * localRadius(box);

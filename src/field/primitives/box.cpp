@@ -45,11 +45,11 @@ struct RoundedBox {
 
   [[nodiscard]] Interval bound(const Box& box) const {
     const detail::AxisDistances d(box, center);
-    return detail::widened({valueAtDistances(d.near), valueAtDistances(d.far)}, size() + detail::largestEntry(box));
+    return detail::widened({valueAtDistances(d.near), valueAtDistances(d.far)}, size() + largestEntry(box));
   }
 
   [[nodiscard]] double lipschitz() const { return 1; }
-  [[nodiscard]] double size() const { return detail::largestEntry(center) + detail::largestEntry(core) + radius; }
+  [[nodiscard]] double size() const { return largestEntry(center) + largestEntry(core) + radius; }
 };
 
 }  // namespace

@@ -45,12 +45,11 @@ struct Ellipsoid {
     // k0/k1 is a mean of the axes, so the range holds even at the centre, where both vanish.
     Interval ratio{smallestAxis(), largestAxis()};
     if (lo.k1 > 0) ratio = detail::intersection(ratio, {lo.k0 / hi.k1, hi.k0 / lo.k1});
-    return detail::widened(detail::product({lo.k0 - 1, hi.k0 - 1}, ratio),
-                           (size() + detail::largestEntry(box)) * flattening());
+    return detail::widened(detail::product({lo.k0 - 1, hi.k0 - 1}, ratio), (size() + largestEntry(box)) * flattening());
   }
 
   [[nodiscard]] double lipschitz() const { return std::numeric_limits<double>::infinity(); }
-  [[nodiscard]] double size() const { return detail::largestEntry(center) + largestAxis(); }
+  [[nodiscard]] double size() const { return largestEntry(center) + largestAxis(); }
 
  private:
   /// How much errors of coordinates grow in a flat ellipsoid's value.

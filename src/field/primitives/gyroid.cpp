@@ -76,7 +76,7 @@ struct Gyroid {
                             std::sin(middle.z) * std::cos(middle.x);
     Interval g = detail::intersection(direct, detail::around(atCenter, change));
     if (thickness > 0) g = detail::absolute(g) + -thickness;
-    return detail::widened(product(g, scale()), detail::largestEntry(box) + (1 + thickness) * scale());
+    return detail::widened(product(g, scale()), largestEntry(box) + (1 + thickness) * scale());
   }
 
   [[nodiscard]] double lipschitz() const { return 1; }

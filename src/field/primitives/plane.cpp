@@ -13,10 +13,10 @@ struct Plane {
   [[nodiscard]] detail::ValueGradient gradient(const Vec3d& p) const { return {value(p), normal}; }
   [[nodiscard]] Interval bound(const Box& box) const {
     return detail::widened(detail::around(value(box.center()), detail::extent(box, normal)),
-                           size() + detail::largestEntry(box));
+                           size() + largestEntry(box));
   }
   [[nodiscard]] double lipschitz() const { return 1; }
-  [[nodiscard]] double size() const { return detail::largestEntry(point); }
+  [[nodiscard]] double size() const { return largestEntry(point); }
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ class SimplexNoise final : public Field {
                    detail::extent(box, f.gradient) * frequency + detail::kSimplexCurvature / 2 * radius * radius);
       const Interval octaveRange = detail::intersection({-1, 1}, detail::around(f.value, reach));
       range = detail::sum(range, detail::product(octaveRange, amplitude));
-      magnitude += amplitude * (1 + frequency * detail::largestEntry(box));
+      magnitude += amplitude * (1 + frequency * largestEntry(box));
     }
     return detail::widened(range, magnitude);
   }

@@ -20,11 +20,11 @@ struct Sphere {
 
   [[nodiscard]] Interval bound(const Box& box) const {
     const detail::AxisDistances d(box, center);
-    return detail::widened({length(d.near) - radius, length(d.far) - radius}, size() + detail::largestEntry(box));
+    return detail::widened({length(d.near) - radius, length(d.far) - radius}, size() + largestEntry(box));
   }
 
   [[nodiscard]] double lipschitz() const { return 1; }
-  [[nodiscard]] double size() const { return detail::largestEntry(center) + radius; }
+  [[nodiscard]] double size() const { return largestEntry(center) + radius; }
 };
 
 }  // namespace
