@@ -11,6 +11,8 @@ namespace pdc::detail {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+/// Of single precision, relative to a coordinate: some units in the last place.
+constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
 
 /// Half the normal times the area on both sides, by Newell's sum.
 Vec3d newellNormal(std::span<const std::uint32_t> polygon, const Buffer<Vec3f>& positions) {
@@ -39,7 +41,8 @@ void EarClipper::triangulate(std::span<const std::uint32_t> polygon, const Buffe
   start();
   while (mLeft > 3) {
     clipQueued();
-    if (mLeft > 3) clipUnsafe();
+    if (mLeft <= 3) break;
+    if (!clipThin()) clipUnsafe();
   }
   if (mLeft > 0) clipRest();
 }
@@ -54,9 +57,11 @@ bool EarClipper::project(std::span<const std::uint32_t> polygon, const Buffer<Ve
   int x = (axis + 1) % 3, y = (axis + 2) % 3;
   if (normal[axis] < 0) std::swap(x, y);
   mPoints.resize(polygon.size());
+  mRounding = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3d p = vecCast<double>(positions[polygon[i]]);
     mPoints[i] = {p[x], p[y]};
+    mRounding = std::max(mRounding, kRounding * largestEntry(p));
   }
   return true;
 }
@@ -66,13 +71,22 @@ int EarClipper::turn(Index a, Index b, Index c) const {
   return orient2d(p.x, p.y, q.x, q.y, r.x, r.y);
 }
 
-/// Whether all triangles from the first corner turn forward; those of repeated corners have no area in any case. Such
-/// triangles overlap only where the polygon goes around that corner more than once, and then it meets itself.
+bool EarClipper::isThin(Index a, Index b, Index c) const {
+  const PlanePoint &p = mPoints[a], &q = mPoints[b], &r = mPoints[c];
+  const double twiceArea = std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+  const double longest =
+      std::max({std::hypot(q.x - p.x, q.y - p.y), std::hypot(r.x - q.x, r.y - q.y), std::hypot(p.x - r.x, p.y - r.y)});
+  return twiceArea <= mRounding * longest;
+}
+
+/// Whether all triangles from the first corner turn forward, and none is thin; those of repeated corners have no area
+/// in any case. Such triangles overlap only where the polygon goes around that corner more than once, and then it meets
+/// itself.
 bool EarClipper::isFan() const {
   for (Index k = 2; k < mPoints.size(); ++k) {
     const int forward = turn(0, k - 1, k);
     const bool repeated = mPoints[k - 1] == mPoints[k] || mPoints[0] == mPoints[k - 1] || mPoints[0] == mPoints[k];
-    if (forward < 0 || (forward == 0 && !repeated)) return false;
+    if (!repeated && (forward <= 0 || isThin(0, k - 1, k))) return false;
   }
   return true;
 }
@@ -97,6 +111,8 @@ void EarClipper::start() {
   mFirstWaiting.assign(size, kNone);
   mWaiting.clear();
   mQueue.clear();
+  mThin.clear();
+  mThinDone = 0;
   mNotConvex.clear();
   for (Index i = 0; i < size; ++i) {
     mPrevious[i] = i == 0 ? size - 1 : i - 1;
@@ -115,22 +131,38 @@ void EarClipper::enqueue(Index i) {
   if (std::exchange(mQueued[i], std::uint8_t{1}) == 0) mQueue.push_back(i);
 }
 
-/// Ears in the order in which they came, so that all around the polygon triangles grow alike. One that is blocked waits
-/// for the corner that blocks it.
+/// Ears in the order in which they came, so that all around the polygon triangles grow alike.
 void EarClipper::clipQueued() {
   for (std::size_t k = 0; k < mQueue.size() && mLeft > 3; ++k) {
-    const Index i = mQueue[k];
-    mQueued[i] = 0;
-    if (mRemoved[i] != 0 || mShapes[i] == Shape::kReflex || mShapes[i] == Shape::kFlat) continue;
-    const Index by = mShapes[i] == Shape::kConvex ? blocker(i, Test::kClosed) : kNone;
-    if (by == kNone) {
-      clip(i);
-    } else {
-      mWaiting.push_back({i, mFirstWaiting[by]});
-      mFirstWaiting[by] = static_cast<Index>(mWaiting.size() - 1);
-    }
+    mQueued[mQueue[k]] = 0;
+    tryEar(mQueue[k], false);
   }
   mQueue.clear();
+}
+
+/// Takes the first thin ear. \returns whether there was one.
+bool EarClipper::clipThin() {
+  while (mThinDone < mThin.size())
+    if (tryEar(mThin[mThinDone++], true)) return true;
+  return false;
+}
+
+/// An ear that is blocked waits for the corner that blocks it.
+bool EarClipper::tryEar(Index i, bool evenIfThin) {
+  if (mRemoved[i] != 0 || mShapes[i] == Shape::kReflex || mShapes[i] == Shape::kFlat) return false;
+  const bool convex = mShapes[i] == Shape::kConvex;
+  if (convex && !evenIfThin && isThin(mPrevious[i], i, mNext[i])) {
+    mThin.push_back(i);
+    return false;
+  }
+  const Index by = convex ? blocker(i, Test::kClosed) : kNone;
+  if (by == kNone) {
+    clip(i);
+    return true;
+  }
+  mWaiting.push_back({i, mFirstWaiting[by]});
+  mFirstWaiting[by] = static_cast<Index>(mWaiting.size() - 1);
+  return false;
 }
 
 /// Only polygons that meet themselves come here. Takes the next corner with nothing inside its triangle; without one,

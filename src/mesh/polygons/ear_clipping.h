@@ -14,9 +14,10 @@ namespace pdc::detail {
 ///
 /// A polygon is looked at along the axis that is nearest to its normal, where all decisions are exact. If the triangles
 /// that fan out from its first corner tile it, those are taken. Otherwise ears are clipped: triangles of three
-/// consecutive corners that hold no other corner. So the triangles of a polygon that does not meet itself tile it, and
-/// only repeated corners and spikes make triangles without area. Others have no right answer, but always as many
-/// triangles.
+/// consecutive corners that hold no other corner; those that are flat but for the rounding of coordinates last, since
+/// out of the plane such a triangle may meet what joins the polygon there. So the triangles of a polygon that does not
+/// meet itself tile it, and only repeated corners and spikes make triangles without area. Others have no right answer,
+/// but always as many triangles.
 class EarClipper {
  public:
   /// Writes n - 2 triangles for n >= 3 corners, in the sense of the polygon. Takes about n log n steps unless most
@@ -36,6 +37,9 @@ class EarClipper {
   [[nodiscard]] bool isFan() const;
   void start();
   void clipQueued();
+  bool clipThin();
+  /// \returns whether it was an ear that nothing blocks.
+  bool tryEar(Index i, bool evenIfThin);
   void clipUnsafe();
   void clip(Index i);
   void clipRest();
@@ -44,6 +48,8 @@ class EarClipper {
   void wake(Index i);
 
   [[nodiscard]] int turn(Index a, Index b, Index c) const;
+  /// Whether a triangle may owe its area to rounding.
+  [[nodiscard]] bool isThin(Index a, Index b, Index c) const;
   [[nodiscard]] Shape shapeOf(Index i) const;
   /// A corner that keeps this one from being an ear; kNone if there is none.
   [[nodiscard]] Index blocker(Index ear, Test test) const;
@@ -58,7 +64,9 @@ class EarClipper {
   std::size_t mLeft = 0;
   Index mCursor = 0;  ///< A corner that is left.
 
-  std::vector<Index> mQueue;
+  double mRounding = 0;  ///< How far coordinates may be from where they should be.
+  std::vector<Index> mQueue, mThin;
+  std::size_t mThinDone = 0;      ///< How many of mThin have been taken.
   std::vector<Waiting> mWaiting;  ///< Lists of ears, one for each corner that blocks them.
   std::vector<Index> mFirstWaiting;
   std::size_t mUnsafeTests = 0;

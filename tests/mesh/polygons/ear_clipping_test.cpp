@@ -132,6 +132,44 @@ TEST(EarClipping, TilesSkylinesWithManyCornersOnOneLine) {
   }
 }
 
+/// A plate with so many teeth, turned about two axes: its caps are polygons whose corners lie on two lines, but for
+/// rounding.
+Mesh turnedComb(int teeth, double degrees) {
+  std::vector<Vec3d> outline{{0, 0, 0}, {2.0 * teeth + 1, 0, 0}};
+  for (int i = teeth; i-- > 0;)
+    for (const auto& [x, y] : {std::pair{2, 1}, {2, 3}, {1, 3}, {1, 1}})
+      outline.push_back({2.0 * i + x, static_cast<double>(y), 0});
+  const double a = degrees * std::numbers::pi / 180;
+  Mesh mesh;
+  for (const double height : {0.0, 1.0})
+    for (const Vec3d& p : outline) {
+      const Vec3d q{p.x * std::cos(a) - p.y * std::sin(a), p.x * std::sin(a) + p.y * std::cos(a), height};
+      mesh.positions.push_back(vecCast<float>(
+          Vec3d{q.x, q.y * std::cos(a) - q.z * std::sin(a), q.y * std::sin(a) + q.z * std::cos(a)} * 0.37));
+    }
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.triangles.push_back({i, next, n + next});
+    mesh.triangles.push_back({i, n + next, n + i});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) mesh.polygons.corners.push_back(n - 1 - i);
+  for (std::uint32_t i = 0; i < n; ++i) mesh.polygons.corners.push_back(n + i);
+  mesh.polygons.starts = {0, n};
+  triangulatePolygons(mesh);
+  return mesh;
+}
+
+TEST(EarClipping, CapsOfTurnedCombsDoNotMeetTheirWalls) {
+  for (const int teeth : {3, 10, 50})
+    for (const double degrees : {0.0, 17.0, 33.0, 50.0, 71.0}) {
+      const Mesh mesh = turnedComb(teeth, degrees);
+      const SelfIntersections found = selfIntersections(mesh);
+      EXPECT_EQ(found.pairs.size(), 0u) << teeth << " teeth, " << degrees << " degrees";
+      EXPECT_EQ(found.degenerateTriangles, 0u) << teeth << " teeth, " << degrees << " degrees";
+    }
+}
+
 TEST(EarClipping, LooksAtAPolygonAlongItsNormal) {
   // An L in many planes; its area is that of the plane's image.
   for (const Vec3d& u : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{1, 2, -2}, Vec3d{-3, 1, 1}})
