@@ -10,7 +10,7 @@
 namespace pdc::detail {
 namespace {
 
-constexpr std::string_view kKeyword = "origin";
+constexpr std::string_view kKeyword = "pdc_origin";
 
 std::optional<Vec3d> finitePoint(TextScanner& scanner) {
   const auto p = scanner.point();
@@ -41,13 +41,15 @@ std::optional<Vec3d> originInText(std::string_view text) {
   for (std::size_t at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at + 1)) {
     if (at > 0 && text[at - 1] != '\n') continue;
     const std::string_view line = text.substr(at + 1, text.find('\n', at) - at - 1);
-    const auto origin = originInComment(line);
-    if (!origin) continue;
-    if (found && *found != *origin)
-      throw Error(fmt::format("two different origins: \"{}\" and \"{}\"", originText(*found), originText(*origin)));
-    found = origin;
+    if (const auto origin = originInComment(line)) takeOrigin(*origin, found);
   }
   return found;
+}
+
+void takeOrigin(const Vec3d& origin, std::optional<Vec3d>& found) {
+  if (found && *found != origin)
+    throw Error(fmt::format("two different origins: \"{}\" and \"{}\"", originText(*found), originText(origin)));
+  found = origin;
 }
 
 std::optional<Vec3d> originInHeader(std::string_view header) {

@@ -9,7 +9,7 @@
 
 namespace pdc::detail {
 
-// A mesh's origin stands in its file as the text "origin X Y Z": a comment in .ply, .obj and .off, and part of the
+// A mesh's origin stands in its file as the text "pdc_origin X Y Z": a comment in .ply, .obj and .off, and part of the
 // header or the first line of .stl.
 
 /// The comment in .ply, .obj and .off files that says that we wrote them, and that their quads are split as ours are.
@@ -23,6 +23,9 @@ inline constexpr std::string_view kOwnComment = "pdc";
 
 /// The origin that a comment, without the sign of a comment, says; nothing if it is about something else.
 [[nodiscard]] std::optional<Vec3d> originInComment(std::string_view comment);
+
+/// Takes an origin that a file says. \throws Error if another one was found before.
+void takeOrigin(const Vec3d& origin, std::optional<Vec3d>& found);
 
 /// The origin that a line of a text beginning with '#' says. \throws Error if two lines say different ones.
 [[nodiscard]] std::optional<Vec3d> originInText(std::string_view text);

@@ -69,7 +69,7 @@ class Parser {
  private:
   void readLine(const std::string& keyword) {
     if (keyword == "comment") {
-      if (const auto origin = originInComment(mScanner.restOfLine())) mHeader.origin = origin;
+      if (const auto origin = originInComment(mScanner.restOfLine())) takeOrigin(*origin, mHeader.origin);
       mHeader.isOwn |= mScanner.restOfLine() == kOwnComment;
     } else if (keyword == "format") {
       mFormat = formatNamed(lowerCase(mScanner.word()));

@@ -58,7 +58,7 @@ TEST(FarMesh, KeepsItsShapeRelativeToAnOrigin) {
 TEST(FarMesh, AFileCanSayItsOrigin) {
   const std::string triangle = "0 0 0\n1 0 0\n0 1 0\n";
   const Vec3d origin{500000.5, -4600000.25, 1e-9};
-  const std::string line = "origin 500000.5 -4600000.25 1e-09";
+  const std::string line = "pdc_origin 500000.5 -4600000.25 1e-09";
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
   std::string binary = "made by hand, " + line;
@@ -78,10 +78,14 @@ TEST(FarMesh, AFileCanSayItsOrigin) {
     EXPECT_EQ(mesh.origin, origin) << name;
     EXPECT_EQ(mesh.positions[1], (Vec3f{1, 0, 0})) << name;
   }
-  EXPECT_EQ(readText("a.obj", "# origin of all things\n# origin 1 2\n# origin 1 2 3 4\nv 0 0 0\n").origin,
-            (Vec3d{0, 0, 0}));
-  EXPECT_EQ(errorOf("a.obj", "# origin 1 2 3\nv 0 0 0\n# origin 1 2 4\n"),
-            "two different origins: \"origin 1 2 3\" and \"origin 1 2 4\"");
+  EXPECT_EQ(
+      readText("a.obj", "# pdc_origin of all things\n# pdc_origin 1 2\n# origin 1 2 3\n# pdc_origin 1 2 3 4\nv 0 0 0\n")
+          .origin,
+      (Vec3d{0, 0, 0}));
+  EXPECT_EQ(errorOf("a.obj", "# pdc_origin 1 2 3\nv 0 0 0\n# pdc_origin 1 2 4\n"),
+            "two different origins: \"pdc_origin 1 2 3\" and \"pdc_origin 1 2 4\"");
+  EXPECT_EQ(errorOf("a.ply", "ply\nformat ascii 1.0\ncomment pdc_origin 1 2 3\ncomment pdc_origin 1 2 4\n"),
+            "two different origins: \"pdc_origin 1 2 3\" and \"pdc_origin 1 2 4\"");
 }
 
 TEST(FarMesh, IsWrittenWithItsOriginAndReadBack) {

@@ -27,7 +27,7 @@ struct MeshReadOptions {
 /// Coordinates are read in double precision. Where single precision would change one by more than a millionth of the
 /// box's largest side, which needs a mesh more than 16 sides away from the origin, they are made relative to
 /// Mesh::origin, a round place near the box's middle; differences of numbers that single precision holds stay exact. A
-/// comment "origin X Y Z" (in .stl: such words in the header or the first line) is added to it.
+/// comment "pdc_origin X Y Z" (in .stl: such words in the header or the first line) is added to it.
 ///
 /// All other properties that a .ply file gives to its vertices are kept with their names and types. Lists are not, and
 /// of several with one name only the first is. Consecutive ones of one type named NAME_x, NAME_y and so on to NAME_w
