@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
 #include "terminal/view_option.h"
+#include "terminal/warning.h"
 
 namespace pdc {
 namespace {
@@ -36,6 +38,11 @@ void parseSize(const std::string& text, RenderRequest& request) {
 std::string checkShading(const std::string& shading) {
   if (shading == "clay" || shading == "normal" || isValueShading(shading)) return "";
   return fmt::format("'{}' is not clay, normal, confidence, error or property:NAME", shading);
+}
+
+std::size_t countNonFinite(const Mesh& mesh) {
+  return static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(),
+                                                [](const Vec3f& p) { return !std::isfinite(p.x + p.y + p.z); }));
 }
 
 Image draw(const RenderRequest& request, std::string& scale) {
@@ -63,7 +70,11 @@ Image draw(const RenderRequest& request, std::string& scale) {
     options.valueHi = request.range ? static_cast<float>(*request.range) : shown.hi;
     scale = fmt::format("; {} from {:.6g}, blue, to {:.6g}, yellow", shown.name, options.valueLo, options.valueHi);
   }
-  return render(mesh, options, monitor);
+  Image image = render(mesh, options, monitor);
+  if (const std::size_t lost = countNonFinite(mesh); lost > 0 && !request.quiet)
+    printWarning(
+        fmt::format("{} of {} vertices are not finite; their faces are left out", lost, mesh.positions.size()));
+  return image;
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
   Warnings warnings;
   SweepInput first = openStep(request, request.mesh, reference, warnings);
   SweepOptions options{.contour = request.mesh.contourOptions(kPapersSigmaNormal), .truth = {}};
+  options.contour.origin.reset();  // Wherever the surface lies, its measures should not be those of rounding.
   if (parameter == SweepParameter::kSigmaNormal) {
     options.truth = std::move(first.truth);
     return sweepSigma(*first.source, request.values(), options, monitor);

@@ -103,6 +103,13 @@ TEST_F(RenderCommand, BadFilesFailInOneLine) {
       {"plain.off", "\"error\"", "--reference"});
 }
 
+TEST_F(RenderCommand, SaysWhatItLeavesOut) {
+  const std::string file = mFolder.write("hole.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 1 3 2\n");
+  const Outcome outcome = runPdc({"render", file, mPicture});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("1 of 4 vertices are not finite"), std::string::npos) << outcome.err;
+}
+
 TEST_F(RenderCommand, UnwritableFolder) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const auto folder = mFolder / "locked";

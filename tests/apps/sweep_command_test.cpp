@@ -59,6 +59,17 @@ TEST_F(SweepCommand, MeshesAreThoseOfPdcMesh) {
   }
 }
 
+TEST_F(SweepCommand, ASurfaceFarFromTheOriginIsMeasuredAsWellAsOneAtIt) {
+  // There single precision has steps of four voxels.
+  const std::string far = mFolder.write("far.yaml",
+                                        "voxel_size: 0.125\nbox: [[8388607, -1, -1], [8388609, 1, 1]]\n"
+                                        "shape: {translate: {by: [8388608, 0, 0], of: {sphere: {radius: 0.7}}}}\n");
+  for (const Json& step : sweep({"--sigma-n", "0.05,inf"}, far)["steps"]) {
+    EXPECT_LT(step["vertex_rms"], 0.05) << step;
+    EXPECT_EQ(step["self_intersections"], 0) << step;
+  }
+}
+
 TEST_F(SweepCommand, ReportsWhatIsKnown) {
   const Json report = sweep({"--sigma-n", "0,inf"}, mScene);
   EXPECT_EQ(report["recommended"], 0);
