@@ -5,6 +5,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 #include <vector>
 
@@ -20,11 +21,30 @@ bool isFiniteValue(const Value& value) {
   return true;
 }
 
+/// Calls visit(i) for the entries of a node's table that are tiles and not finite.
+template <typename Node, typename Visit>
+void visitNonFiniteTiles(const Node& node, Visit&& visit) {
+  const auto* table = node.getTable();
+  const auto& children = node.getChildMask();
+  for (openvdb::Index w = 0; w < Node::NUM_VALUES / 64; ++w) {
+    const auto isChild = children.template getWord<std::uint64_t>(w);
+    if (isChild == 0) {
+      // Nearly all words hold tiles alone, and all of these are finite.
+      unsigned finite = 1;
+      for (openvdb::Index i = 64 * w; i < 64 * (w + 1); ++i) finite &= unsigned{isFiniteValue(table[i].getValue())};
+      if (finite != 0) continue;
+    }
+    for (openvdb::Index i = 0; i < 64; ++i)
+      if ((isChild >> i & 1) == 0 && !isFiniteValue(table[64 * w + i].getValue())) visit(64 * w + i);
+  }
+}
+
 /// The tiles of a tree that are not finite, each as one voxel at its low corner. Tiles that hold the background do not
 /// count.
 template <typename Tree>
 NonFiniteVoxels nonFiniteTiles(const Tree& tree) {
   NonFiniteVoxels found;
+  if constexpr (!std::is_floating_point_v<typename Tree::ValueType>) return found;
   const bool countInactive = isFiniteValue(tree.background());
   const auto look = [&](const auto& value, bool active, const openvdb::Coord& at) {
     if (!isFiniteValue(value) && (active || countInactive)) found.add(at, static_cast<double>(value));
@@ -33,9 +53,9 @@ NonFiniteVoxels nonFiniteTiles(const Tree& tree) {
   const auto lookInNodes = [&]<typename Node>(std::vector<const Node*> nodes) {
     tree.getNodes(nodes);
     for (const Node* node : nodes)
-      for (openvdb::Index i = 0; i < Node::NUM_VALUES; ++i)
-        if (!node->isChildMaskOn(i))
-          look(node->getTable()[i].getValue(), node->isValueOn(i), node->offsetToGlobalCoord(i));
+      visitNonFiniteTiles(*node, [&](openvdb::Index i) {
+        look(node->getTable()[i].getValue(), node->isValueOn(i), node->offsetToGlobalCoord(i));
+      });
   };
   using Upper = typename Tree::RootNodeType::ChildNodeType;
   lookInNodes(std::vector<const Upper*>());

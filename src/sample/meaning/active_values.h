@@ -21,7 +21,32 @@ struct ValueRange {
     low = std::min(low, v);
     high = std::max(high, v);
   }
+  void add(const ValueRange& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
 };
+
+/// The range of a leaf's active values.
+template <typename LeafT>
+ValueRange rangeOf(const LeafT& leaf) {
+  using Value = typename LeafT::ValueType;
+  const Value* values = leaf.buffer().data();
+  constexpr Value kLowest = std::numeric_limits<Value>::lowest(), kHighest = std::numeric_limits<Value>::max();
+  Value low = kHighest, high = kLowest;
+  for (openvdb::Index w = 0; w < LeafT::NodeMaskType::WORD_COUNT; ++w) {
+    const std::uint64_t on = leaf.getValueMask().template getWord<std::uint64_t>(w);
+    if (on == 0) continue;
+    for (int i = 0; i < 64; ++i) {
+      const Value v = values[64 * w + i];
+      // Comparisons with NaN are false.
+      const bool counts = (on >> i & 1) != 0 && v >= kLowest && v <= kHighest;
+      low = counts && v < low ? v : low;
+      high = counts && v > high ? v : high;
+    }
+  }
+  return low <= high ? ValueRange{static_cast<double>(low), static_cast<double>(high)} : ValueRange{};
+}
 
 /// The active values of a tree. The tree must outlive this.
 template <typename TreeT>
@@ -61,13 +86,11 @@ class ActiveValues {
     ValueRange range = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>(0, mLeaves.size(), 64), ValueRange{},
         [&](const auto& part, ValueRange sum) {
-          for (std::size_t l = part.begin(); l != part.end(); ++l)
-            for (auto value = mLeaves[l].node->cbeginValueOn(); value; ++value) sum.add(static_cast<double>(*value));
+          for (std::size_t l = part.begin(); l != part.end(); ++l) sum.add(rangeOf(*mLeaves[l].node));
           return sum;
         },
         [](ValueRange a, const ValueRange& b) {
-          a.add(b.low);
-          a.add(b.high);
+          a.add(b);
           return a;
         });
     for (const Tile& tile : mTiles) range.add(tile.value);
@@ -82,15 +105,17 @@ class ActiveValues {
     const auto farSide = [&](const openvdb::CoordBBox& box) {
       return std::int64_t{sign} * (last ? box.max() : box.min())[axis];
     };
+    const int within = last ? kSide - 1 : 0;
+    const auto farEnd = [&](const Leaf& leaf) { return sign * (std::int64_t{leaf.origin[axis]} + within); };
     std::int64_t reach = kNowhere;  // The layer's coordinate, times the sign.
     for (const Tile& tile : mTiles) reach = std::max(reach, farSide(tile.box));
     for (std::int64_t limit = -kNowhere; reach < limit;) {
       // All leaves that end in the same place, as far out as there are some below the limit.
       std::int64_t end = reach;
       for (const Leaf& leaf : mLeaves)
-        if (farSide(leaf.box()) < limit) end = std::max(end, farSide(leaf.box()));
+        if (const std::int64_t at = farEnd(leaf); at < limit) end = std::max(end, at);
       for (const Leaf& leaf : mLeaves)
-        if (farSide(leaf.box()) == end) reach = std::max(reach, reachOf(leaf, axis, sign));
+        if (farEnd(leaf) == end) reach = std::max(reach, reachOf(leaf, axis, sign));
       limit = end;
     }
     for (const Tile& tile : mTiles)
@@ -111,8 +136,6 @@ class ActiveValues {
   struct Leaf {
     openvdb::Coord origin;
     const LeafT* node;
-
-    [[nodiscard]] openvdb::CoordBBox box() const { return openvdb::CoordBBox::createCube(origin, kSide); }
   };
   struct Tile {
     openvdb::CoordBBox box;

@@ -1,6 +1,8 @@
 #include <openvdb/openvdb.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <type_traits>
 #include <utility>
@@ -33,31 +35,31 @@ class LeafSample {
   LeafSample(const LatticeMap& map, double background) : mMap(map), mBackground(background) {}
 
   void addValues(const LeafT& leaf) {
-    for (auto value = leaf.cbeginValueOn(); value; ++value) {
-      const auto v = static_cast<double>(*value);
-      mRange.add(v);
-      ++mValues;
-      mBeyond += std::abs(v) > (1 + kAtEnd) * std::abs(mBackground);
+    mRange.add(rangeOf(leaf));
+    const double beyond = (1 + kAtEnd) * std::abs(mBackground);
+    for (int x = 0; x < kSide; ++x) {
+      const std::uint64_t active = activeAt(leaf, x);
+      mValues += static_cast<std::size_t>(std::popcount(active));
+      int count = 0;
+      for (int i = 0; i < 64; ++i) count += int(std::abs(value(leaf, 64 * x + i)) > beyond) & int(active >> i & 1);
+      mBeyond += static_cast<std::size_t>(count);
     }
   }
   /// To be called when addValues() was for all leaves.
   void addNeighbours(const LeafT& leaf) {
     const openvdb::Coord o = leaf.origin();
-    constexpr double kMiddle = 0.5 * (LeafT::DIM - 1);
+    constexpr double kMiddle = 0.5 * (kSide - 1);
     const Mat3d toWorld = inverse(mMap.jacobian({o.x() + kMiddle, o.y() + kMiddle, o.z() + kMiddle})).transposed();
-    for (int i = 0; i < kSize; ++i) {
-      if (!leaf.isValueOn(static_cast<openvdb::Index>(i))) continue;
-      Vec3d gradient;
-      bool known = isInBand(value(leaf, i));
-      for (int axis = 0; axis < 3; ++axis) {
-        const int at = i / kStep[axis] % kSide;
-        for (const int s : {-1, 1})
-          known = visitNeighbour(leaf, i, at + s >= 0 && at + s < kSide ? s * kStep[axis] : 0) && known;
-        if (known) gradient[axis] = 0.5 * (value(leaf, i + kStep[axis]) - value(leaf, i - kStep[axis]));
+    for (int x = 0; x < kSide; ++x) {
+      const std::uint64_t active = activeAt(leaf, x);
+      std::uint64_t surrounded = active;
+      for (const Neighbours& n : neighbours(leaf, x)) {
+        visitBits(active & n.inLeaf & ~n.active, [&](int i) { countEnd(leaf, 64 * x + i, n.step); });
+        surrounded &= n.inLeaf & n.active;
       }
-      if (!known) continue;
-      mSlopes.push_back(length(toWorld * gradient));
-      mSizes.push_back(std::abs(value(leaf, i)));
+      // Half of them, in a pattern that sees each row, say as much.
+      constexpr std::uint64_t kEven = 0x5555555555555555;
+      visitBits(surrounded & (x % 2 == 0 ? kEven : ~kEven), [&](int i) { addSlope(leaf, 64 * x + i, toWorld); });
     }
   }
   void finish(GridEvidence& evidence) {
@@ -76,12 +78,40 @@ class LeafSample {
   }
 
  private:
-  static constexpr int kSide = LeafT::DIM, kSize = LeafT::SIZE;
+  static constexpr int kSide = LeafT::DIM;
   static constexpr int kStep[3] = {kSide * kSide, kSide, 1};
 
-  static double value(const LeafT& leaf, int i) {
-    return static_cast<double>(leaf.getValue(static_cast<openvdb::Index>(i)));
+  static_assert(kSide == 8, "A layer across x is one word of a mask.");
+
+  /// The points beside those of a layer, on one side.
+  struct Neighbours {
+    int step;              ///< From a point to its neighbour.
+    std::uint64_t inLeaf;  ///< Points of the layer whose neighbours the leaf holds.
+    std::uint64_t active;  ///< Points of the layer whose neighbours are active.
+  };
+
+  static std::uint64_t activeAt(const LeafT& leaf, int x) {
+    return leaf.getValueMask().template getWord<std::uint64_t>(static_cast<openvdb::Index>(x));
   }
+
+  static std::array<Neighbours, 6> neighbours(const LeafT& leaf, int x) {
+    constexpr std::uint64_t kAll = ~std::uint64_t{0}, kFirstZ = 0x0101010101010101, kLastZ = kFirstZ << 7;
+    const std::uint64_t w = activeAt(leaf, x);
+    const bool below = x > 0, above = x + 1 < kSide;
+    return {{{-kStep[0], below ? kAll : 0, below ? activeAt(leaf, x - 1) : 0},
+             {kStep[0], above ? kAll : 0, above ? activeAt(leaf, x + 1) : 0},
+             {-kStep[1], kAll << 8, w << 8},
+             {kStep[1], kAll >> 8, w >> 8},
+             {-kStep[2], ~kFirstZ, w << 1},
+             {kStep[2], ~kLastZ, w >> 1}}};
+  }
+
+  template <typename Visit>
+  static void visitBits(std::uint64_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
+  }
+
+  static double value(const LeafT& leaf, int i) { return static_cast<double>(leaf.buffer().data()[i]); }
 
   /// False for values that are clamped, at one of the ends of what there is.
   [[nodiscard]] bool isInBand(double v) const {
@@ -89,14 +119,23 @@ class LeafSample {
     return v > mRange.low + margin && v < mRange.high - margin;
   }
 
-  /// Counts where activity ends. \returns whether the neighbour is active and carries slope. \param step 0 if it lies
-  /// in another leaf.
-  bool visitNeighbour(const LeafT& leaf, int i, int step) {
-    if (step == 0) return false;
+  void countEnd(const LeafT& leaf, int i, int step) {
     const double v = value(leaf, i), next = value(leaf, i + step);
-    if (leaf.isValueOn(static_cast<openvdb::Index>(i + step))) return isInBand(next);
     if (v != 0 && next != 0 && v == v && next == next) ++mEnds[v > 0][next > 0];
-    return false;
+  }
+
+  /// Adds the slope at a point whose neighbours are all active, unless one of them carries none.
+  void addSlope(const LeafT& leaf, int i, const Mat3d& toWorld) {
+    const double v = value(leaf, i);
+    if (!isInBand(v)) return;
+    Vec3d gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double below = value(leaf, i - kStep[axis]), above = value(leaf, i + kStep[axis]);
+      if (!isInBand(below) || !isInBand(above)) return;
+      gradient[axis] = 0.5 * (above - below);
+    }
+    mSlopes.push_back(length(toWorld * gradient));
+    mSizes.push_back(std::abs(v));
   }
 
   const LatticeMap& mMap;

@@ -1,5 +1,6 @@
 #include "sample/vdb/isovalue_points.h"
 
+#include <bit>
 #include <limits>
 #include <vector>
 
@@ -18,7 +19,7 @@ bool anyAtEnd(const HermiteBlock& hermite, int size) {
 }
 
 /// Below zero and finite: other values are not inside.
-bool isInside(float v) { return v < 0 && v >= std::numeric_limits<float>::lowest(); }
+bool isFinitelyInside(float v) { return v < 0 && v >= std::numeric_limits<float>::lowest(); }
 
 /// The mean of the values that a point lies between, along those axes that `known` has and that have both inside; 0 if
 /// there are none.
@@ -28,17 +29,35 @@ float meanBetween(const float* p, const std::array<int, 3>& step, const std::arr
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!known[axis]) continue;  // There may be nothing to read.
     const float below = p[-step[axis]], above = p[step[axis]];
-    if (!isInside(below) || !isInside(above)) continue;
+    if (!isFinitelyInside(below) || !isFinitelyInside(above)) continue;
     sum += double{below} + double{above};
     count += 2;
   }
   return count > 0 ? static_cast<float>(sum / count) : 0;
 }
 
-bool hasZero(const float* row) {
+inline bool hasZero(const float* row) {
   int any = 0;
   for (int i = 0; i < kLanes; ++i) any |= int(row[i] == 0);
   return any != 0;
+}
+
+/// A row of a stencil that was read, along z.
+struct StencilRow {
+  int x, y;
+};
+
+/// The rows that hold a zero: nearly always none.
+std::vector<StencilRow> rowsWithZeros(const DistanceStencil& stencil) {
+  std::vector<StencilRow> found;
+  withSimd(bestSimdLevel(), [&] {
+    for (int x = 0; x < DistanceStencil::kPoints; ++x)
+      for (unsigned ys = stencil.rows[x]; ys != 0; ys &= ys - 1) {
+        const int y = std::countr_zero(ys);
+        if (hasZero(&stencil.value[(DistanceStencil::kPoints * x + y) * kLanes])) found.push_back({x, y});
+      }
+  });
+  return found;
 }
 
 }  // namespace
@@ -85,16 +104,14 @@ void fillIsovaluePoints(DistanceStencil& stencil) {
   const auto isRead = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < kPoints && y < kPoints && (stencil.rows[x] >> y & 1) != 0;
   };
-  for (int x = 0; x < kPoints; ++x)
-    for (int y = 0; y < kPoints; ++y) {
-      float* row = &stencil.value[(kPoints * x + y) * kLanes];
-      if (!isRead(x, y) || !hasZero(row)) continue;
-      const std::array<bool, 3> known{isRead(x - 1, y) && isRead(x + 1, y), isRead(x, y - 1) && isRead(x, y + 1), true};
-      for (int z = 1; z + 1 < kLanes; ++z) {
-        const float value = row[z] == 0 ? meanBetween(row + z, DistanceStencil::kStep, known) : 0;
-        if (value < 0) points.push_back({row + z, value});
-      }
+  for (const auto& [x, y] : rowsWithZeros(stencil)) {
+    float* row = &stencil.value[(kPoints * x + y) * kLanes];
+    const std::array<bool, 3> known{isRead(x - 1, y) && isRead(x + 1, y), isRead(x, y - 1) && isRead(x, y + 1), true};
+    for (int z = 1; z + 1 < kLanes; ++z) {
+      const float value = row[z] == 0 ? meanBetween(row + z, DistanceStencil::kStep, known) : 0;
+      if (value < 0) points.push_back({row + z, value});
     }
+  }
   for (const Point& p : points) *p.at = p.value;
 }
 
