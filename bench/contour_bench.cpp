@@ -14,8 +14,10 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pdc/extract/contour.h"
@@ -66,9 +68,27 @@ FloatGrid::Ptr read(const std::string& path) {
   return nullptr;
 }
 
+/// A grid that is made when it is first asked for, so that what a filter leaves out costs nothing.
+class LazyGrid {
+ public:
+  explicit LazyGrid(std::function<FloatGrid::Ptr()> make) : mMake(std::move(make)) {}
+
+  const FloatGrid::Ptr& get() const {
+    if (!mGrid) mGrid = mMake();
+    return mGrid;
+  }
+
+ private:
+  std::function<FloatGrid::Ptr()> mMake;
+  mutable FloatGrid::Ptr mGrid;
+};
+
 struct Input {
   std::string name;
-  FloatGrid::Ptr grid;
+  std::shared_ptr<const LazyGrid> grid;
+
+  Input(std::string label, std::function<FloatGrid::Ptr()> make)
+      : name(std::move(label)), grid(std::make_shared<LazyGrid>(std::move(make))) {}
 };
 
 void report(benchmark::State& state, std::size_t vertices) {
@@ -141,7 +161,7 @@ void add(const std::string& what, const Input& input, const std::function<void(b
 }
 
 void addAll(const Input& input) {
-  const FloatGrid::Ptr& grid = input.grid;
+  const std::shared_ptr<const LazyGrid> grid = input.grid;
   struct Variant {
     const char* name;
     pdc::Placement placement;
@@ -152,9 +172,9 @@ void addAll(const Input& input) {
                            Variant{"pdc_cell", Placement::kCell, HermiteMode::kGradient},
                            Variant{"pdc_certified", Placement::kCertified, HermiteMode::kGradient},
                            Variant{"pdc_default", Placement::kCertified, HermiteMode::kAuto}})
-    add(v.name, input, [grid, v](benchmark::State& s) { pdcContour(s, grid, v.placement, v.hermite); });
-  add("volume_to_mesh", input, [grid](benchmark::State& s) { volumeToMesh(s, grid); });
-  add("roofline", input, [grid](benchmark::State& s) { roofline(s, grid); });
+    add(v.name, input, [grid, v](benchmark::State& s) { pdcContour(s, grid->get(), v.placement, v.hermite); });
+  add("volume_to_mesh", input, [grid](benchmark::State& s) { volumeToMesh(s, grid->get()); });
+  add("roofline", input, [grid](benchmark::State& s) { roofline(s, grid->get()); });
 }
 
 }  // namespace
@@ -165,20 +185,20 @@ void addAll(const Input& input) {
 int main(int argc, char** argv) {
   openvdb::initialize();
   benchmark::Initialize(&argc, argv);
-  addAll({"sphere_100", sphere(100)});
-  addAll({"sphere_300", sphere(300)});
-  addAll({"fog_sphere_300", fogSphere(300)});
+  addAll({"sphere_100", [] { return sphere(100); }});
+  addAll({"sphere_300", [] { return sphere(300); }});
+  addAll({"fog_sphere_300", [] { return fogSphere(300); }});
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--large") {
-      addAll({"sphere_1000", sphere(1000)});
+      addAll({"sphere_1000", [] { return sphere(1000); }});
     } else if (argument == "--rough") {
       for (const int n : {16, 48}) {
-        addAll({"checkerboard_" + std::to_string(n), checkerboard(n)});
-        addAll({"noise_" + std::to_string(n), noise(n)});
+        addAll({"checkerboard_" + std::to_string(n), [n] { return checkerboard(n); }});
+        addAll({"noise_" + std::to_string(n), [n] { return noise(n); }});
       }
     } else if (const FloatGrid::Ptr grid = read(argument)) {
-      addAll({argument.substr(argument.rfind('/') + 1), grid});
+      addAll({argument.substr(argument.rfind('/') + 1), [grid] { return grid; }});
     } else {
       std::fprintf(stderr, "contour_bench: %s holds no float grid\n", argv[i]);
       return 1;
