@@ -27,12 +27,20 @@ constexpr std::array<float, 8> kForward{0.99F, 0.97F, 0.95F, 0.92F, 0.88F, 0.8F,
 constexpr std::uint8_t kMostMoves = 3;
 /// Where faces meet more others than this, no single move helps.
 constexpr std::size_t kMostConflicts = 12;
-/// Where there are more conflicts, or vertices off their places, faces are folded by noise: no single move helps, and
-/// trying them takes long.
-constexpr std::size_t kFewConflicts = 200, kFacesPerConflict = 20;
+/// Where a block has more conflicts, or vertices off their places, its faces are folded by noise: no single move helps,
+/// and trying them takes long.
+constexpr std::ptrdiff_t kMostInBlock = 64;
 
-bool foldedByNoise(const WorkingMesh& mesh, std::size_t conflicts) {
-  return conflicts > std::max(kFewConflicts, mesh.mesh().quads.size() / kFacesPerConflict);
+/// \param blocks of offences. \returns those that have too many, sorted.
+std::vector<std::int32_t> foldedByNoise(std::vector<std::int32_t> blocks) {
+  std::sort(blocks.begin(), blocks.end());
+  std::vector<std::int32_t> folded;
+  for (auto begin = blocks.begin(); begin != blocks.end();) {
+    const auto end = std::find_if(begin, blocks.end(), [&](std::int32_t b) { return b != *begin; });
+    if (end - begin > kMostInBlock) folded.push_back(*begin);
+    begin = end;
+  }
+  return folded;
 }
 
 Vec3f scaledTo(const Vec3d& v, double wanted) {
@@ -74,18 +82,17 @@ struct Found {
   Vec3f place{};
 };
 
-Found findPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
+Found findPlace(const FaceBoxes& boxes, const FaceTests& faces, const VertexState& vertex) {
   const Mat3d M = faces.map().jacobian({});
   std::vector<Vec3f> places = placesAlong(vertex, M);
   addPlacesOffCrease(vertex, M, places);
   std::vector<Vec3f> world(places.size());
   std::transform(places.begin(), places.end(), world.begin(),
                  [&](const Vec3f& p) { return faces.worldPosition(vertex, p); });
-  VertexTrial trial(locator, faces, vertex, world);
+  VertexTrial trial(boxes, faces, vertex, world);
   Found best{trial.countConflicts(0, kMostConflicts + 1)};
   if (best.conflicts == vertex.unresolvedConflicts || best.conflicts > kMostConflicts) return best;
   for (std::size_t i = 1; i < places.size() && best.conflicts > 0; ++i) {
-    if (!trial.withinReach(i)) continue;
     const std::size_t conflicts = trial.countConflicts(i, best.conflicts);
     if (conflicts < best.conflicts) best = {conflicts, i, places[i]};
   }
@@ -101,7 +108,7 @@ double distanceFromPlanes(const SuspectVertex& v, const Mat3d& M, const Vec3f& o
 }
 
 /// The place nearest to the planes of the vertex's crease where its faces have no conflict; its own if there is none.
-Vec3f findBetterPlace(const FaceLocator& locator, const FaceTests& faces, const VertexState& vertex) {
+Vec3f findBetterPlace(const FaceBoxes& boxes, const FaceTests& faces, const VertexState& vertex) {
   const Mat3d M = faces.map().jacobian({});
   SuspectVertex wanted = vertex;
   wanted.place = vertex.wanted;
@@ -118,9 +125,9 @@ Vec3f findBetterPlace(const FaceLocator& locator, const FaceTests& faces, const 
   std::vector<Vec3f> world;
   for (const auto& p : places) world.push_back(faces.worldPosition(vertex, p.second));
   world.push_back(faces.worldPosition(vertex, vertex.place));
-  VertexTrial trial(locator, faces, vertex, world);
+  VertexTrial trial(boxes, faces, vertex, world);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (trial.withinReach(i) && trial.countConflicts(i, 1) == 0) return places[i].second;
+    if (trial.countConflicts(i, 1) == 0) return places[i].second;
   return vertex.place;
 }
 
@@ -139,6 +146,9 @@ struct Candidate {
 };
 
 std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector<Conflict>& conflicts) {
+  std::vector<std::int32_t> blocks;
+  for (const Conflict& c : conflicts) blocks.push_back(c.edge0.block);
+  const std::vector<std::int32_t> folded = foldedByNoise(std::move(blocks));
   std::vector<Candidate> candidates;
   for (std::size_t c = 0; c < conflicts.size(); ++c) {
     mesh.monitor().throwIfStopped();
@@ -146,7 +156,8 @@ std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector
       const std::ptrdiff_t i = mesh.movable(corner);
       if (i < 0) return;
       const VertexState& v = mesh.vertices()[static_cast<std::size_t>(i)];
-      if (v.creaseMoves < kMostMoves && isSharp(v)) candidates.push_back({c, static_cast<std::size_t>(i)});
+      if (v.creaseMoves < kMostMoves && isSharp(v) && !std::binary_search(folded.begin(), folded.end(), v.block))
+        candidates.push_back({c, static_cast<std::size_t>(i)});
     });
   }
   return candidates;
@@ -154,17 +165,17 @@ std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector
 
 }  // namespace
 
-std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near,
-                                        const std::vector<Conflict>& conflicts) {
-  if (!mesh.faces().map().affine() || foldedByNoise(mesh, conflicts.size())) return {};
+std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, NearFaces& near, const std::vector<Conflict>& conflicts) {
+  if (!mesh.faces().map().affine()) return {};
   const std::vector<Candidate> candidates = findCandidates(mesh, conflicts);
   std::vector<std::size_t> vertices;
   for (const Candidate& c : candidates) vertices.push_back(c.vertex);
   sortUnique(vertices);
+  const FaceBoxes& boxes = near.boxesAbout(mesh.vertices(), vertices);
   std::vector<Found> found(vertices.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
     mesh.monitor().throwIfStopped();
-    found[k] = findPlace(near.locator(), mesh.faces(), mesh.vertices()[vertices[k]]);
+    found[k] = findPlace(boxes, mesh.faces(), mesh.vertices()[vertices[k]]);
   });
 
   // Only the best vertex of each conflict may move.
@@ -191,17 +202,23 @@ std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near
   return moves;
 }
 
-std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, const NearFaces& near) {
+std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, NearFaces& near) {
   if (!mesh.faces().map().affine()) return {};
   std::vector<std::size_t> displaced;
   for (std::size_t i = 0; i < mesh.vertices().size(); ++i)
     if (mesh.vertices()[i].place != mesh.vertices()[i].wanted) displaced.push_back(i);
-  if (foldedByNoise(mesh, displaced.size())) return {};
+  std::vector<std::int32_t> blocks;
+  for (const std::size_t i : displaced) blocks.push_back(mesh.vertices()[i].block);
+  const std::vector<std::int32_t> folded = foldedByNoise(std::move(blocks));
+  std::erase_if(displaced, [&](std::size_t i) {
+    const VertexState& v = mesh.vertices()[i];
+    return !isSharp(v) || std::binary_search(folded.begin(), folded.end(), v.block);
+  });
+  const FaceBoxes& boxes = near.boxesAbout(mesh.vertices(), displaced);
   return gather<VertexMove>(displaced.size(), [&](std::size_t i, std::vector<VertexMove>& out) {
     mesh.monitor().throwIfStopped();
     const VertexState& vertex = mesh.vertices()[displaced[i]];
-    if (!isSharp(vertex)) return;
-    const Vec3f place = findBetterPlace(near.locator(), mesh.faces(), vertex);
+    const Vec3f place = findBetterPlace(boxes, mesh.faces(), vertex);
     if (place != vertex.place) out.push_back({displaced[i], place});
   });
 }

@@ -19,15 +19,15 @@ struct VertexMove {
 /// parts nothing; then places on the way to the safe one. Among those with the fewest conflicts left it takes the
 /// first. It leaves out vertices that have moved a few times, and notes where it found no better place.
 /// \param conflicts of the mesh as it is, found by `near`.
-/// \returns moves of which no two share a conflict, by ascending vertex; none where the map is not affine, or where
-/// conflicts are so many that faces are folded by noise. Runs in parallel. \throws Cancelled.
-[[nodiscard]] std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, const NearFaces& near,
+/// \returns moves of which no two share a conflict, by ascending vertex; none where the map is not affine, or in blocks
+/// with so many conflicts that their faces are folded by noise. Runs in parallel. \throws Cancelled.
+[[nodiscard]] std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, NearFaces& near,
                                                       const std::vector<Conflict>& conflicts);
 
 /// Looks for better places for vertices on sharp creases that are not where they are wanted.
 /// \returns by ascending vertex the places where their faces have no conflict if no other vertex moves, nearer to the
-/// planes of their creases than where they are; none where the map is not affine, or where such vertices are so many
-/// that faces are folded by noise. Runs in parallel. \throws Cancelled.
-[[nodiscard]] std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, const NearFaces& near);
+/// planes of their creases than where they are; none where the map is not affine, or in blocks with so many such
+/// vertices that their faces are folded by noise. Runs in parallel. \throws Cancelled.
+[[nodiscard]] std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, NearFaces& near);
 
 }  // namespace pdc::detail

@@ -6,7 +6,7 @@
 
 namespace pdc::detail {
 
-std::vector<EdgeRef> moveAlongCreases(WorkingMesh& mesh, const NearFaces& near, std::vector<Conflict>& conflicts) {
+std::vector<EdgeRef> moveAlongCreases(WorkingMesh& mesh, NearFaces& near, std::vector<Conflict>& conflicts) {
   std::vector<std::size_t> moved;
   for (const VertexMove& m : findCreaseMoves(mesh, near, conflicts)) {
     mesh.restartAt(m.vertex, m.place);

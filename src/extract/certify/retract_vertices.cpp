@@ -5,7 +5,7 @@
 
 namespace pdc::detail {
 
-std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, const NearFaces&, std::vector<Conflict>& conflicts) {
+std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<Conflict>& conflicts) {
   std::vector<std::size_t> vertices;
   std::erase_if(conflicts, [&](const Conflict& c) {
     mesh.monitor().throwIfStopped();

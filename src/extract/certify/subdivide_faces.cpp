@@ -26,7 +26,7 @@ bool splitCells(WorkingMesh& mesh, const Conflict& c, std::vector<EdgeRef>& chan
 
 }  // namespace
 
-std::vector<EdgeRef> subdivideFaces(WorkingMesh& mesh, const NearFaces&, std::vector<Conflict>& conflicts) {
+std::vector<EdgeRef> subdivideFaces(WorkingMesh& mesh, NearFaces&, std::vector<Conflict>& conflicts) {
   std::vector<EdgeRef> changed;
   std::erase_if(conflicts, [&](const Conflict& c) {
     mesh.monitor().throwIfStopped();

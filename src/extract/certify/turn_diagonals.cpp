@@ -6,7 +6,7 @@
 
 namespace pdc::detail {
 
-std::vector<EdgeRef> turnDiagonals(WorkingMesh& mesh, const NearFaces& near, std::vector<Conflict>& conflicts) {
+std::vector<EdgeRef> turnDiagonals(WorkingMesh& mesh, NearFaces& near, std::vector<Conflict>& conflicts) {
   std::vector<EdgeRef> edges;
   for (const Conflict& c : conflicts) {
     mesh.monitor().throwIfStopped();

@@ -28,16 +28,14 @@ std::array<std::uint8_t, 3> notAmong(const Triangle& others, const Triangle& cor
 
 }  // namespace
 
-VertexTrial::VertexTrial(const FaceLocator& locator, const FaceTests& faces, const SuspectVertex& vertex,
+VertexTrial::VertexTrial(const FaceBoxes& boxes, const FaceTests& faces, const SuspectVertex& vertex,
                          std::span<const Vec3f> places)
-    : mLocator(locator), mFaces(faces), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
+    : mBoxes(boxes), mFaces(faces), mPlaces(places), mVertex(static_cast<std::uint32_t>(vertex.vertex)) {
   const Float4Box ofPlaces = boxOf(places);
   Float4Box all = ofPlaces;
-  faces.edgeCells().forEachEdgeAt(vertex, [&](const EdgeRef& e) {
-    mReach.push_back({faces.edgeCells().lowEnd(e), locator.farReach(e)});
-    all.add(Float4Box(faces.corners(faces.edgeCells().vertices(e))));
-  });
-  addFaces(all);
+  faces.edgeCells().forEachEdgeAt(
+      vertex, [&](const EdgeRef& e) { all.add(Float4Box(faces.corners(faces.edgeCells().vertices(e)))); });
+  addFaces(vertex.block, all);
   computeSides();
   mOrder.resize(mPieces.size());
   std::iota(mOrder.begin(), mOrder.end(), std::size_t{0});
@@ -45,19 +43,14 @@ VertexTrial::VertexTrial(const FaceLocator& locator, const FaceTests& faces, con
 }
 
 /// Adds the faces that may reach into a box.
-void VertexTrial::addFaces(const Float4Box& box) {
-  std::vector<EdgeRef> edges;
-  mLocator.facesAbout(mLocator.latticeBox(box), edges);
+void VertexTrial::addFaces(std::int32_t block, const Float4Box& box) {
   std::vector<Triangle> triangles;
-  for (const EdgeRef& e : edges) {
-    const std::uint64_t face = mFaces.edgeCells().face(e);
+  FaceBoxes::About(mBoxes, block).forEach(box, [&](const EdgeRef& e, std::uint64_t face) {
     const Quad* quad = mFaces.quad(face);
-    const bool own = quad != nullptr && hasVertex(*quad, mVertex);
-    if (quad != nullptr && !own && box.apartFrom(Float4Box(mFaces.corners(*quad)))) continue;
     mFaces.triangles(e, face, triangles);
-    if (own) {
+    if (quad != nullptr && hasVertex(*quad, mVertex)) {
       addOwn(e, triangles);
-      continue;
+      return true;
     }
     for (const Triangle& t : triangles) {
       if (hasVertex(t, mVertex))
@@ -65,7 +58,8 @@ void VertexTrial::addFaces(const Float4Box& box) {
       else
         mFixed.emplace_back(t, mFaces.corners(t));
     }
-  }
+    return true;
+  });
 }
 
 void VertexTrial::addOwn(const EdgeRef& e, std::span<const Triangle> triangles) {
@@ -136,12 +130,6 @@ inline void VertexTrial::move(const OwnPiece& piece, std::size_t place) {
     static_cast<FilteredTriangle&>(own) = {own.vertices, corners};
     own.point[own.moving] = static_cast<std::uint32_t>(place);
   }
-}
-
-bool VertexTrial::withinReach(std::size_t place) const {
-  const Vec3d p = mLocator.latticePosition(mPlaces[place]);
-  return std::all_of(mReach.begin(), mReach.end(),
-                     [&](const Reach& r) { return FaceLocator::distance(r.low, p) <= r.most; });
 }
 
 std::size_t VertexTrial::countConflicts(std::size_t place, std::size_t most) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "extract/conflicts/face_locator.h"
+#include "extract/conflicts/face_boxes.h"
 #include "extract/conflicts/float4_box.h"
 #include "extract/conflicts/triangle_filters.h"
 
@@ -14,12 +14,11 @@ namespace pdc::detail {
 /// Counts what the faces of a vertex would meet if the vertex were elsewhere. For affine maps.
 class VertexTrial {
  public:
-  /// \param places in world space, the vertex's own among them; must outlive this.
-  VertexTrial(const FaceLocator& locator, const FaceTests& faces, const SuspectVertex& vertex,
+  /// \param boxes prepared for the vertex's block. \param places in world space, the vertex's own among them; must
+  /// outlive this.
+  VertexTrial(const FaceBoxes& boxes, const FaceTests& faces, const SuspectVertex& vertex,
               std::span<const Vec3f> places);
 
-  /// Whether the tests of other faces would still find the faces of the vertex at one of the places.
-  [[nodiscard]] bool withinReach(std::size_t place) const;
   /// How many conflicts the faces of the vertex would have at one of the places; counts to `most`. A face with a
   /// triangle that faces backwards counts as one; what else that triangle meets counts or not, by the order of faces,
   /// which earlier counts change.
@@ -45,13 +44,7 @@ class VertexTrial {
     std::size_t first, count;   ///< The range of its triangles in mOwn.
     std::size_t conflicts = 0;  ///< How many it had when last counted.
   };
-  /// A face of the vertex, and how far it may reach from the low end of its edge.
-  struct Reach {
-    Vec3d low;
-    double most;
-  };
-
-  void addFaces(const Float4Box& box);
+  void addFaces(std::int32_t block, const Float4Box& box);
   void addOwn(const EdgeRef& e, std::span<const Triangle> triangles);
   void computeSides();
   void addNear(OwnTriangle& own, const Float4Box& places);
@@ -62,11 +55,10 @@ class VertexTrial {
   [[nodiscard]] bool meets(const OwnTriangle& own, const NearTriangle& near) const;
   [[nodiscard]] std::span<OwnTriangle> triangles(const OwnPiece& piece) { return {&mOwn[piece.first], piece.count}; }
 
-  const FaceLocator& mLocator;
+  const FaceBoxes& mBoxes;
   const FaceTests& mFaces;
   std::span<const Vec3f> mPlaces;
   std::uint32_t mVertex;
-  std::vector<Reach> mReach;
   std::vector<OwnTriangle> mOwn;
   std::vector<OwnPiece> mPieces;
   std::vector<std::size_t> mOrder;  ///< The order in which pieces are counted.

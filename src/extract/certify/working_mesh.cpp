@@ -10,9 +10,15 @@
 namespace pdc::detail {
 namespace {
 
-/// By number of retractions, the share of the way from its safe place at which a vertex lies. Steps of halves cost half
-/// of the sharpness of creases.
-constexpr std::array<float, 9> kShare{1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0};
+/// By number of retractions, the share of the way from its safe place at which a vertex lies: on creases that are
+/// known, and elsewhere. Steps of halves cost half of the sharpness of creases.
+constexpr auto kShareOnCrease = std::to_array<float>({1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0});
+constexpr auto kShare = std::to_array<float>({1, 0.85F, 0.6F, 0.3F, 0});
+
+std::span<const float> sharesOf(const VertexState& v) {
+  if (v.creaseNormals[0] != Vec3f{}) return kShareOnCrease;
+  return kShare;
+}
 
 Quad otherDiagonal(const Quad& q) { return {q[1], q[2], q[3], q[0]}; }
 
@@ -27,7 +33,7 @@ WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex
       mMesh(mesh),
       mMonitor(monitor) {}
 
-bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} == kShare.size(); }
+bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} >= sharesOf(v).size(); }
 
 std::ptrdiff_t WorkingMesh::movable(std::uint32_t vertex) const {
   const VertexState* v = mFaces.suspect(vertex);
@@ -42,7 +48,7 @@ void WorkingMesh::moveTo(std::size_t i, const Vec3f& place) {
 
 void WorkingMesh::retract(std::size_t i) {
   VertexState& v = mVertices[i];
-  moveTo(i, v.safe + (v.retractedFrom - v.safe) * kShare[++v.retractions]);
+  moveTo(i, v.safe + (v.retractedFrom - v.safe) * sharesOf(v)[++v.retractions]);
 }
 
 void WorkingMesh::restartAt(std::size_t i, const Vec3f& place) {
@@ -61,8 +67,8 @@ std::vector<EdgeRef> WorkingMesh::quadsAt(std::span<const std::size_t> vertices)
 }
 
 bool WorkingMesh::fixed(const EdgeRef& e) const {
-  const Quad ring = mEdgeCells.vertices(e);
-  return std::none_of(ring.begin(), ring.end(), [this](std::uint32_t v) { return movable(v) >= 0; });
+  const Quad& quad = mMesh.quads[mEdgeCells.face(e)];
+  return std::none_of(quad.begin(), quad.end(), [this](std::uint32_t v) { return movable(v) >= 0; });
 }
 
 Quad WorkingMesh::turned(const EdgeRef& e) const { return otherDiagonal(mMesh.quads[mEdgeCells.face(e)]); }

@@ -9,6 +9,7 @@
 #include "extract/conflicts/triangle_filters.h"
 #include "math/lane_loops.h"
 #include "parallel/gather.h"
+#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 
@@ -18,8 +19,7 @@ struct NearFaces::TestedFace {
   std::vector<Triangle> triangles;
   std::vector<FilteredTriangle> filtered;  ///< The same triangles.
   Float4Box box;                           ///< Holds all of them.
-  std::vector<EdgeRef> near;
-  std::vector<Triangle> others;  ///< Those of another face.
+  std::vector<Triangle> others;            ///< Those of another face.
   std::vector<Conflict> conflicts;
 };
 
@@ -30,22 +30,24 @@ struct NearFaces::OtherQuad {
   const std::array<Vec3f, 4>& corners;
 };
 
-NearFaces::NearFaces(const FaceTests& faces, const std::vector<EdgeRef>& farReaching, RoundProgress& progress,
-                     SimdLevel level)
-    : mFaces(faces),
-      mProgress(progress),
-      mLevel(level),
-      mLocator(faces, farReaching, progress.monitor()),
-      mFarFaces(faces, mLocator, farReaching, level, progress.monitor()) {}
+namespace {
 
-/// Calls visit(edge), until it returns false, for all other faces that may meet the one being tested.
-template <typename Visit>
-void NearFaces::forEachNear(TestedFace& face, Visit&& visit) const {
-  if (mFarFaces.forEachNear(face.edge, face.box, visit)) return;
-  mLocator.facesAbout(mLocator.latticeBox(face.edge, face.box), face.near);
-  for (const EdgeRef& other : face.near)
-    if (other != face.edge && !visit(other)) return;
-}
+/// Sorted edges, by their blocks.
+struct BlockRuns {
+  std::vector<std::int32_t> blocks;
+  std::vector<std::size_t> begin;  ///< Where each block's edges begin, and the end.
+
+  explicit BlockRuns(const std::vector<EdgeRef>& edges) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (i > 0 && edges[i].block == edges[i - 1].block) continue;
+      blocks.push_back(edges[i].block);
+      begin.push_back(i);
+    }
+    begin.push_back(edges.size());
+  }
+};
+
+}  // namespace
 
 inline void NearFaces::load(TestedFace& face, const EdgeRef& e) const {
   face.edge = e;
@@ -57,11 +59,13 @@ inline void NearFaces::load(TestedFace& face, const EdgeRef& e) const {
 
 /// Appends the conflicts of a face.
 /// \param foundFrom conflicts with a face of these that comes before are left to it. Null: one conflict is enough.
-inline void NearFaces::search(TestedFace& face, const EdgeSet* foundFrom, std::vector<Conflict>& out) const {
+inline void NearFaces::search(TestedFace& face, const FaceBoxes::About& near, const EdgeSet* foundFrom,
+                              std::vector<Conflict>& out) const {
   const EdgeRef& e = face.edge;
+  const Vec3d forward = mFaces.forward(e);
   for (std::size_t i = 0; i < face.filtered.size(); ++i) {
     const FilteredTriangle& t = face.filtered[i];
-    if (!mFaces.facesForward(e, t.vertices, t.corners)) return out.push_back({e, e, t.vertices, t.vertices});
+    if (!mFaces.facesForward(forward, t.vertices, t.corners)) return out.push_back({e, e, t.vertices, t.vertices});
     for (std::size_t j = 0; j < i; ++j)
       if (trianglesIntersect(t, face.filtered[j])) out.push_back({e, e, face.filtered[j].vertices, t.vertices});
   }
@@ -70,13 +74,11 @@ inline void NearFaces::search(TestedFace& face, const EdgeSet* foundFrom, std::v
   };
   const auto goOn = [&] { return foundFrom != nullptr || out.empty(); };
   if (!goOn()) return;
-  forEachNear(face, [&](const EdgeRef& other) {
-    const std::uint64_t number = mFaces.edgeCells().face(other);
+  near.forEach(face.box, [&](const EdgeRef& other, std::uint64_t number) {
+    if (other == e || isFoundFrom(other)) return true;
     if (const Quad* quad = mFaces.quad(number)) {
-      const std::array<Vec3f, 4> corners = mFaces.corners(*quad);
-      if (face.box.apartFrom(Float4Box(corners)) || isFoundFrom(other)) return true;
-      compare(face, {other, *quad, corners}, out);
-    } else if (!isFoundFrom(other)) {
+      compare(face, {other, *quad, mFaces.corners(*quad)}, out);
+    } else {
       mFaces.triangles(other, number, face.others);
       for (const Triangle& t : face.others)
         for (const FilteredTriangle& own : face.filtered)
@@ -109,42 +111,57 @@ inline void NearFaces::compare(const TestedFace& face, const OtherQuad& other, s
 
 std::vector<Conflict> NearFaces::findConflicts(const std::vector<EdgeRef>& active) {
   mProgress.beginRound(active.size());
+  const BlockRuns runs(active);
+  mBoxes.update(active, mProgress.monitor());
+  mBoxes.prepare(runs.blocks, mProgress.monitor());
   tbb::enumerable_thread_specific<TestedFace> scratch;
-  tbb::parallel_for(std::size_t{0}, active.size(), [&](std::size_t i) {
-    mProgress.monitor().throwIfStopped();
-    mFarFaces.update(active[i], scratch.local().triangles);
-  });
   const EdgeSet all(mFaces.edgeCells().blockCount(), active);
-  std::vector<Conflict> found = gather<Conflict>(active.size(), [&](std::size_t i, std::vector<Conflict>& out) {
-    mProgress.advance();
+  std::vector<Conflict> found = gather<Conflict>(runs.blocks.size(), [&](std::size_t r, std::vector<Conflict>& out) {
     TestedFace& face = scratch.local();
-    mFaces.triangles(active[i], mFaces.edgeCells().face(active[i]), face.triangles);
-    withSimd(mLevel, [&] {
-      load(face, active[i]);
-      search(face, &all, out);
-    });
+    const FaceBoxes::About near(mBoxes, runs.blocks[r]);
+    for (std::size_t i = runs.begin[r]; i < runs.begin[r + 1]; ++i) {
+      mProgress.advance();
+      mFaces.triangles(active[i], mFaces.edgeCells().face(active[i]), face.triangles);
+      withSimd(mLevel, [&] {
+        load(face, active[i]);
+        search(face, near, &all, out);
+      });
+    }
   });
   tbb::parallel_sort(found.begin(), found.end());
   return found;
 }
 
 std::vector<std::uint8_t> NearFaces::soundWhenTurned(const std::vector<EdgeRef>& edges,
-                                                     const std::vector<Quad>& turned) const {
+                                                     const std::vector<Quad>& turned) {
+  const BlockRuns runs(edges);
+  mBoxes.prepare(runs.blocks, mProgress.monitor());
   std::vector<std::uint8_t> sound(edges.size());
   tbb::enumerable_thread_specific<TestedFace> scratch;
-  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
-    mProgress.monitor().throwIfStopped();
+  tbb::parallel_for(std::size_t{0}, runs.blocks.size(), [&](std::size_t r) {
     TestedFace& face = scratch.local();
-    const Quad& q = turned[i];
-    face.triangles = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
-    face.conflicts.clear();
-    withSimd(mLevel, [&] {
-      load(face, edges[i]);
-      search(face, nullptr, face.conflicts);
-    });
-    sound[i] = face.conflicts.empty();
+    const FaceBoxes::About near(mBoxes, runs.blocks[r]);
+    for (std::size_t i = runs.begin[r]; i < runs.begin[r + 1]; ++i) {
+      mProgress.monitor().throwIfStopped();
+      const Quad& q = turned[i];
+      face.triangles = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
+      face.conflicts.clear();
+      withSimd(mLevel, [&] {
+        load(face, edges[i]);
+        search(face, near, nullptr, face.conflicts);
+      });
+      sound[i] = face.conflicts.empty();
+    }
   });
   return sound;
+}
+
+const FaceBoxes& NearFaces::boxesAbout(const std::vector<VertexState>& vertices, std::span<const std::size_t> numbers) {
+  std::vector<std::int32_t> blocks;
+  for (const std::size_t i : numbers) blocks.push_back(vertices[i].block);
+  sortUnique(blocks);
+  mBoxes.prepare(blocks, mProgress.monitor());
+  return mBoxes;
 }
 
 }  // namespace pdc::detail

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "extract/conflicts/conflict.h"
-#include "extract/conflicts/face_locator.h"
+#include "extract/conflicts/face_boxes.h"
 #include "extract/conflicts/face_tests.h"
-#include "extract/conflicts/far_faces.h"
 #include "extract/conflicts/round_progress.h"
 #include "extract/topology/edge_set.h"
 #include "pdc/math/simd_level.h"
@@ -16,10 +16,9 @@ namespace pdc::detail {
 /// Finds the conflicts of faces, among all faces near them. All functions run in parallel and throw Cancelled.
 class NearFaces {
  public:
-  /// \param faces and `progress` must outlive this. \param farReaching the edges whose faces may leave the cells about
-  /// them; sorted. \param level changes no result.
-  NearFaces(const FaceTests& faces, const std::vector<EdgeRef>& farReaching, RoundProgress& progress,
-            SimdLevel level = bestSimdLevel());
+  /// \param faces and `progress` must outlive this. \param level changes no result.
+  NearFaces(const FaceTests& faces, RoundProgress& progress, SimdLevel level = bestSimdLevel())
+      : mFaces(faces), mProgress(progress), mLevel(level), mBoxes(faces) {}
 
   /// The conflicts of the triangles of `active` against each other and against all others near them; sorted. A face of
   /// which a triangle is degenerate or faces backwards has that conflict, and is not searched for further ones. Counts
@@ -28,27 +27,27 @@ class NearFaces {
   [[nodiscard]] std::vector<Conflict> findConflicts(const std::vector<EdgeRef>& active);
 
   /// For each of some edges whose faces are quads: whether there is no conflict if its quad is `turned[i]` instead,
-  /// which has the same corners. No face has changed since the last findConflicts.
+  /// which has the same corners. No face has changed since the last findConflicts. \param edges sorted.
   [[nodiscard]] std::vector<std::uint8_t> soundWhenTurned(const std::vector<EdgeRef>& edges,
-                                                          const std::vector<Quad>& turned) const;
+                                                          const std::vector<Quad>& turned);
 
-  [[nodiscard]] const FaceLocator& locator() const { return mLocator; }
+  /// Where faces are, ready to be searched about all of these vertices.
+  [[nodiscard]] const FaceBoxes& boxesAbout(const std::vector<VertexState>& vertices,
+                                            std::span<const std::size_t> numbers);
 
  private:
   struct TestedFace;
   struct OtherQuad;
 
-  template <typename Visit>
-  void forEachNear(TestedFace& face, Visit&& visit) const;
   void load(TestedFace& face, const EdgeRef& e) const;
-  void search(TestedFace& face, const EdgeSet* foundFrom, std::vector<Conflict>& out) const;
+  void search(TestedFace& face, const FaceBoxes::About& near, const EdgeSet* foundFrom,
+              std::vector<Conflict>& out) const;
   static void compare(const TestedFace& face, const OtherQuad& other, std::vector<Conflict>& out);
 
   const FaceTests& mFaces;
   RoundProgress& mProgress;
   const SimdLevel mLevel;
-  FaceLocator mLocator;
-  FarFaces mFarFaces;
+  FaceBoxes mBoxes;
 };
 
 }  // namespace pdc::detail

@@ -83,8 +83,9 @@ void EdgeCells::forEachEdge(const CellRef& c, Visit&& visit) const {
 template <typename Visit>
 void EdgeCells::forEachEdgeAt(const SuspectVertex& v, Visit&& visit) const {
   const CellRef c = cellOf(v);
+  const bool onlyOne = block(v.block).findMultiVertex(v.cell) == nullptr;
   forEachEdge(c, [&](const EdgeRef& e, int edge) {
-    if (block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) visit(e);
+    if (onlyOne || block(v.block).vertexAt(c.x, c.y, c.z, edge) == v.vertex) visit(e);
   });
 }
 

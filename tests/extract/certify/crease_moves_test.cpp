@@ -21,7 +21,7 @@ class CreaseMovesTest : public testing::Test {
   const Monitor mMonitor{.progress = {}, .stop = &mStop};
   UncertifiedMesh mInput{mSource, 0, mMonitor};
   const std::vector<EdgeRef> mActive = mInput.active();
-  NearFaces mNear{mInput.working.faces(), mActive, mInput.progress};
+  NearFaces mNear{mInput.working.faces(), mInput.progress};
   std::vector<Conflict> mConflicts;
 };
 

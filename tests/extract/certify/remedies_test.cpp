@@ -18,7 +18,7 @@ struct Conflicting {
   explicit Conflicting(const HermiteSource& source, const Monitor& monitor = kUnstopped)
       : input(source, 0.02, monitor),
         active(input.active()),
-        near(input.working.faces(), active, input.progress),
+        near(input.working.faces(), input.progress),
         conflicts(near.findConflicts(active)) {}
 
   UncertifiedMesh input;

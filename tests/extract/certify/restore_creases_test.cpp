@@ -22,7 +22,7 @@ class RestoreCreasesTest : public testing::Test {
   const Monitor mMonitor{.progress = {}, .stop = &mStop};
   UncertifiedMesh mInput{mSource, 0, mMonitor};
   const std::vector<EdgeRef> mActive = mInput.active();
-  NearFaces mNear{mInput.working.faces(), mActive, mInput.progress};
+  NearFaces mNear{mInput.working.faces(), mInput.progress};
 };
 
 TEST_F(RestoreCreasesTest, VerticesGetBackWithoutNewConflicts) {

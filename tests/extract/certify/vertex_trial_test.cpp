@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "extract/certify/brute_force.h"
@@ -34,14 +35,17 @@ std::vector<Vec3f> placesAbout(const SuspectVertex& v, const FaceTests& faces, s
 Compared compareWithBruteForce(UncertifiedMesh& input, std::size_t step, std::mt19937& random) {
   const FaceTests& faces = input.working.faces();
   RoundProgress& progress = input.progress;
-  const NearFaces near(faces, input.active(), progress);
+  NearFaces near(faces, progress);
+  std::vector<std::size_t> all(input.suspects.vertices.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const FaceBoxes& boxes = near.boxesAbout(input.working.vertices(), all);
   BruteForce bruteForce(input);
   Compared compared;
   constexpr std::size_t kAll = 1'000'000;
   for (std::size_t i = 0; i < input.suspects.vertices.size(); i += step) {
     const VertexState& v = input.working.vertices()[i];
     const std::vector<Vec3f> places = placesAbout(v, faces, random);
-    VertexTrial trial(near.locator(), faces, v, places);
+    VertexTrial trial(boxes, faces, v, places);
     for (std::size_t p = 0; p < places.size(); ++p) {
       const BruteForce::Count expected = bruteForce.countConflicts(static_cast<std::uint32_t>(v.vertex), places[p]);
       const std::size_t count = trial.countConflicts(p, kAll);
@@ -91,20 +95,6 @@ TEST(VertexTrial, CountsTheTrianglesOfFans) {
   const Compared compared = compareWithBruteForce(input, 3, random);
   EXPECT_GT(compared.exactly, 50);
   EXPECT_GT(compared.more, 100);
-}
-
-TEST(VertexTrial, FindsPlacesWithinReachOfItsFaces) {
-  std::mt19937 random(14);
-  const SignSource source = randomGrid(random, 5, false);
-  UncertifiedMesh input(source, 0.02);
-  const FaceTests& faces = input.working.faces();
-  const NearFaces near(faces, input.active(), input.progress);
-  for (const VertexState& v : input.working.vertices()) {
-    const std::vector<Vec3f> places{input.mesh.positions[v.vertex], faces.worldPosition(v, {9, 0, 0})};
-    const VertexTrial trial(near.locator(), faces, v, places);
-    EXPECT_TRUE(trial.withinReach(0));
-    EXPECT_FALSE(trial.withinReach(1));
-  }
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::vector<EdgeRef> facesOf(const std::vector<Conflict>& conflicts) {
 std::size_t compareWithBruteForce(const HermiteSource& source, double sigma, SimdLevel level) {
   UncertifiedMesh input(source, sigma);
   const std::vector<EdgeRef> active = input.active();
-  NearFaces near(input.working.faces(), active, input.progress, level);
+  NearFaces near(input.working.faces(), input.progress, level);
   const std::vector<Conflict> found = near.findConflicts(active);
   EXPECT_EQ(found, BruteForce(input).conflicts(active));
 
@@ -62,7 +62,7 @@ TEST(NearFaces, TurnedQuadsAreSoundWhereBruteForceFindsNoConflict) {
   const SignSource source = randomGrid(random, 6, true);
   UncertifiedMesh input(source, 0.02);
   const std::vector<EdgeRef> active = input.active();
-  NearFaces near(input.working.faces(), active, input.progress);
+  NearFaces near(input.working.faces(), input.progress);
   (void)near.findConflicts(active);
   std::vector<Quad> turned;
   for (const EdgeRef& e : active) turned.push_back(input.working.turned(e));
@@ -88,11 +88,10 @@ TEST(NearFaces, StopWhenAsked) {
   UncertifiedMesh input(source, 0.02, monitor);
   const std::vector<EdgeRef> active = input.active();
   ASSERT_FALSE(active.empty());
-  NearFaces near(input.working.faces(), active, input.progress);
+  NearFaces near(input.working.faces(), input.progress);
   std::vector<Quad> turned;
   for (const EdgeRef& e : active) turned.push_back(input.working.turned(e));
   stop = true;
-  EXPECT_THROW(NearFaces(input.working.faces(), active, input.progress), Cancelled);
   EXPECT_THROW((void)near.findConflicts(active), Cancelled);
   EXPECT_THROW((void)near.soundWhenTurned(active, turned), Cancelled);
 }
@@ -111,7 +110,7 @@ TEST(NearFaces, StopInTheMiddleOfARound) {
   UncertifiedMesh input(source, 0.02, monitor);
   const std::vector<EdgeRef> active = input.active();
   ASSERT_GT(active.size(), 4000U) << "there must be something left to do";
-  NearFaces near(input.working.faces(), active, input.progress);
+  NearFaces near(input.working.faces(), input.progress);
   EXPECT_THROW((void)near.findConflicts(active), Cancelled);
   EXPECT_LE(calls, 2 + tbb::this_task_arena::max_concurrency());
 }
