@@ -46,9 +46,11 @@ void WorkingMesh::moveTo(std::size_t i, const Vec3f& place) {
   mMesh.positions[v.vertex] = mFaces.worldPosition(v, place);
 }
 
-void WorkingMesh::retract(std::size_t i) {
+void WorkingMesh::retract(std::size_t i, int steps) {
   VertexState& v = mVertices[i];
-  moveTo(i, v.safe + (v.retractedFrom - v.safe) * sharesOf(v)[++v.retractions]);
+  const std::span<const float> shares = sharesOf(v);
+  v.retractions = static_cast<std::uint8_t>(std::min<std::size_t>(v.retractions + steps, shares.size() - 1));
+  moveTo(i, v.safe + (v.retractedFrom - v.safe) * shares[v.retractions]);
 }
 
 void WorkingMesh::restartAt(std::size_t i, const Vec3f& place) {

@@ -39,8 +39,8 @@ class WorkingMesh {
   [[nodiscard]] static bool fullyRetracted(const VertexState& v);
   /// Moves suspect vertex i. \param place in lattice units from the centre of its cell.
   void moveTo(std::size_t i, const Vec3f& place);
-  /// Retracts suspect vertex i towards its safe place by a step. It must be movable.
-  void retract(std::size_t i);
+  /// Retracts suspect vertex i towards its safe place, by some steps or as far as it goes. It must be movable.
+  void retract(std::size_t i, int steps = 1);
   /// Has suspect vertex i retracted from another place from now on, where it is moved.
   void restartAt(std::size_t i, const Vec3f& place);
 

@@ -19,15 +19,16 @@ struct NearFaces::TestedFace {
   std::vector<Triangle> triangles;
   std::vector<FilteredTriangle> filtered;  ///< The same triangles.
   Float4Box box;                           ///< Holds all of them.
-  std::vector<Triangle> others;            ///< Those of another face.
+  bool isQuad;
+  FilteredQuad quad;             ///< If it is one.
+  std::vector<Triangle> others;  ///< Those of another face.
   std::vector<Conflict> conflicts;
 };
 
 /// A quad near it.
 struct NearFaces::OtherQuad {
   EdgeRef edge;
-  const Quad& vertices;
-  const std::array<Vec3f, 4>& corners;
+  FilteredQuad quad;
 };
 
 namespace {
@@ -53,6 +54,12 @@ inline void NearFaces::load(TestedFace& face, const EdgeRef& e) const {
   face.edge = e;
   face.filtered.clear();
   for (const Triangle& t : face.triangles) face.filtered.emplace_back(t, mFaces.corners(t));
+  face.isQuad = face.triangles.size() == 2;
+  if (face.isQuad) {
+    const Triangle &t = face.triangles[0], &u = face.triangles[1];
+    const Quad quad{t[0], t[1], t[2], u[2]};
+    face.quad = FilteredQuad(quad, mFaces.corners(quad));
+  }
   face.box = face.filtered[0].box;
   for (const FilteredTriangle& t : face.filtered) face.box.add(t.box);
 }
@@ -77,7 +84,7 @@ inline void NearFaces::search(TestedFace& face, const FaceBoxes::About& near, co
   near.forEach(face.box, [&](const EdgeRef& other, std::uint64_t number) {
     if (other == e || isFoundFrom(other)) return true;
     if (const Quad* quad = mFaces.quad(number)) {
-      compare(face, {other, *quad, mFaces.corners(*quad)}, out);
+      compare(face, {other, {*quad, mFaces.corners(*quad)}}, out);
     } else {
       mFaces.triangles(other, number, face.others);
       for (const Triangle& t : face.others)
@@ -90,10 +97,11 @@ inline void NearFaces::search(TestedFace& face, const FaceBoxes::About& near, co
 
 /// Appends the conflicts of a face with a quad.
 inline void NearFaces::compare(const TestedFace& face, const OtherQuad& other, std::vector<Conflict>& out) {
-  const auto& [edge, quad, corners] = other;
-  const Points points(corners);
+  if (face.isQuad && areParted(face.quad, other.quad)) return;
+  const Quad& quad = other.quad.vertices;
+  const std::array<Vec3f, 4>& corners = other.quad.corners;
   for (const FilteredTriangle& own : face.filtered) {
-    const std::array<Sides, 4> sides = own.plane.sides(quad, points);
+    const std::array<Sides, 4> sides = own.plane.sides(quad, other.quad.points);
     // Nearly always all of the quad is on one side.
     if (all(sides).same()) continue;
     for (int j = 1; j < 3; ++j) {
@@ -104,7 +112,7 @@ inline void NearFaces::compare(const TestedFace& face, const OtherQuad& other, s
       const std::array<Sides, 4> ownSides = TrianglePlane(t, tCorners).sides(quadOf(own.vertices), own.points);
       if (all(ownSides).same()) continue;
       if (trianglesIntersect(own.corners, own.vertices, tCorners, t, {signs(ownSides), signs(tSides)}))
-        out.push_back({face.edge, edge, own.vertices, t});
+        out.push_back({face.edge, other.edge, own.vertices, t});
     }
   }
 }

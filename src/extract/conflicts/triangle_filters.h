@@ -31,6 +31,9 @@ TriangleSides::Signs signs(const std::array<Sides, n>& s) {
   return {s[0].sign(), s[1].sign(), s[2].sign()};
 }
 
+/// Several times what rounding can do to the sign of a triple product, relative to its factors.
+inline constexpr double kSideRounding = 1e-14;
+
 /// Four points, such as the corners of a quad, or of a triangle with the last one twice; in double precision, which
 /// holds them exactly.
 struct Points {
@@ -41,6 +44,26 @@ struct Points {
       : x{double{p[0].x}, double{p[1].x}, double{p[2].x}, double{p[n - 1].x}},
         y{double{p[0].y}, double{p[1].y}, double{p[2].y}, double{p[n - 1].y}},
         z{double{p[0].z}, double{p[1].z}, double{p[2].z}, double{p[n - 1].z}} {}
+  Points() = default;
+
+  /// Whether all points but the excepted ones lie above a plane for certain.
+  template <typename Int4>
+  [[nodiscard]] bool allAbove(const Vec3d& origin, const Vec3d& normal, const Int4& except) const {
+    using Double4 = double __attribute__((vector_size(32)));
+    using Long4 = long long __attribute__((vector_size(32)));
+    Double4 dx, dy, dz;
+    std::memcpy(&dx, x.data(), sizeof dx);
+    std::memcpy(&dy, y.data(), sizeof dy);
+    std::memcpy(&dz, z.data(), sizeof dz);
+    dx -= origin.x;
+    dy -= origin.y;
+    dz -= origin.z;
+    const Double4 side = dx * normal.x + dy * normal.y + dz * normal.z;
+    const double bound = kSideRounding * kSideRounding * dot(normal, normal);
+    const Long4 sure = (side > 0.0) & (side * side > (dx * dx + dy * dy + dz * dz) * bound);
+    const Long4 held = sure | __builtin_convertvector(except, Long4);
+    return (held[0] & held[1] & held[2] & held[3]) != 0;
+  }
 };
 inline Quad quadOf(const Triangle& t) { return {t[0], t[1], t[2], t[2]}; }
 
@@ -51,9 +74,7 @@ class TrianglePlane {
       : mVertices(vertices), mOrigin(vecCast<double>(corners[0])) {
     const Vec3d u = vecCast<double>(corners[1]) - mOrigin, v = vecCast<double>(corners[2]) - mOrigin;
     mNormal = cross(u, v);
-    // Several times what rounding can do to the sign of a triple product.
-    constexpr double kRounding = 1e-14;
-    mErrorBound = kRounding * kRounding * dot(u, u) * dot(v, v);
+    mErrorBound = kSideRounding * kSideRounding * dot(u, u) * dot(v, v);
   }
 
   /// The sides of some points.
@@ -100,6 +121,45 @@ class TrianglePlane {
   Vec3d mOrigin, mNormal;
   double mErrorBound;
 };
+
+/// A quad with its corners and their mean.
+struct FilteredQuad {
+  FilteredQuad() = default;
+  FilteredQuad(const Quad& v, const std::array<Vec3f, 4>& c) : vertices(v), corners(c), points(c) {
+    center = (vecCast<double>(c[0]) + vecCast<double>(c[1]) + vecCast<double>(c[2]) + vecCast<double>(c[3])) * 0.25;
+  }
+
+  Quad vertices;
+  std::array<Vec3f, 4> corners;
+  Points points;
+  Vec3d center;
+};
+
+/// Whether a plane through the one or two vertices that two quads share has all else of them strictly on its two sides:
+/// then their triangles meet in what they share only. Tries the plane across the line between their centres, turned to
+/// hold the shared edge.
+[[nodiscard]] inline bool areParted(const FilteredQuad& a, const FilteredQuad& b) {
+  using Int4 = std::int32_t __attribute__((vector_size(16)));
+  Int4 av, bv, aShared{}, bShared{};
+  std::memcpy(&av, a.vertices.data(), sizeof av);
+  std::memcpy(&bv, b.vertices.data(), sizeof bv);
+  for (int i = 0; i < 4; ++i) {
+    aShared |= av == static_cast<std::int32_t>(b.vertices[i]);
+    bShared |= bv == static_cast<std::int32_t>(a.vertices[i]);
+  }
+  std::array<int, 4> shared;
+  int count = 0;
+  for (int i = 0; i < 4; ++i)
+    if (aShared[i] != 0) shared[count++] = i;
+  if (count == 0 || count > 2) return false;
+  const Vec3d origin = vecCast<double>(a.corners[shared[0]]);
+  Vec3d normal = a.center - b.center;
+  if (count == 2) {
+    const Vec3d edge = vecCast<double>(a.corners[shared[1]]) - origin;
+    normal -= edge * (dot(normal, edge) / dot(edge, edge));
+  }
+  return a.points.allAbove(origin, normal, aShared) && b.points.allAbove(origin, -normal, bShared);
+}
 
 /// A triangle of a mesh with what the quick tests need to know of it.
 struct FilteredTriangle {

@@ -38,17 +38,10 @@ class BlockFaceWriter::Block {
 
   void run() {
     listEdges();
-    if (mVertices.allSimple()) {
-      findVertices<kAxisX>();
-      findVertices<kAxisY>();
-      findVertices<kAxisZ>();
-    } else {
-      const EdgeCells edgeCells(mWriter.mBlocks, mWriter.mTopology);
-      for (int i = 0; i < mBegin[3]; ++i) {
-        const Quad ring = edgeCells.vertices(edge(i));
-        for (int k = 0; k < 4; ++k) mVertex[k][i] = ring[k];
-      }
-    }
+    if (mVertices.allSimple())
+      findVertices<true>();
+    else
+      findVertices<false>();
     for (int first = 0; first < mBegin[3]; first += kLanes) addSixteen(first, std::min(mBegin[3] - first, kLanes));
   }
 
@@ -67,13 +60,22 @@ class BlockFaceWriter::Block {
     mBegin[3] = n;
   }
 
-  template <Axis axis>
+  template <bool simple>
+  void findVertices() {
+    findVertices<kAxisX, simple>();
+    findVertices<kAxisY, simple>();
+    findVertices<kAxisZ, simple>();
+  }
+
+  template <Axis axis, bool simple>
   void findVertices() {
     constexpr int kStepU = CellVertices::kStep[nextAxis(axis)], kStepV = CellVertices::kStep[previousAxis(axis)];
     for (int i = mBegin[axis]; i < mBegin[axis + 1]; ++i) {
       const std::uint32_t* at = mVertices.at({static_cast<std::uint16_t>(mEdge[i] % kBlockCells)});
-      for (int k = 0; k < 4; ++k)
-        mVertex[k][i] = at[-(kCellsAboutEdge[k][0] * kStepU + kCellsAboutEdge[k][1] * kStepV)];
+      for (int k = 0; k < 4; ++k) {
+        const std::uint32_t* cell = at - (kCellsAboutEdge[k][0] * kStepU + kCellsAboutEdge[k][1] * kStepV);
+        mVertex[k][i] = simple ? *cell : mVertices.vertexAt(cell, edgeInCell(axis, k));
+      }
     }
   }
 
