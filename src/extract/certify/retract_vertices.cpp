@@ -8,46 +8,42 @@
 namespace pdc::detail {
 namespace {
 
-/// From so many corners of conflicting triangles on, a vertex that is on no known crease is folded by noise: then it
-/// takes two steps at once.
-constexpr std::ptrdiff_t kManyCorners = 6;
+/// Where vertices are on no known crease and a block has more conflicts than this, its faces are folded by noise: then
+/// they take several steps at once. Clean creases of gradients have fewer.
+constexpr std::ptrdiff_t kMostInBlock = 32;
+constexpr int kStepsInNoise = 3;
 
-/// A suspect vertex by its number, and how many steps it takes.
-struct Retraction {
-  std::size_t vertex;
-  int steps;
-};
-
-/// \param corners numbers of vertices, one for each corner of a conflicting triangle.
-std::vector<Retraction> retractions(const WorkingMesh& mesh, std::vector<std::size_t>& corners) {
-  std::sort(corners.begin(), corners.end());
-  std::vector<Retraction> result;
-  for (auto begin = corners.begin(); begin != corners.end();) {
-    const auto end = std::find_if(begin, corners.end(), [&](std::size_t v) { return v != *begin; });
-    const bool folded = end - begin >= kManyCorners && mesh.vertices()[*begin].creaseNormals[0] == Vec3f{};
-    result.push_back({*begin, folded ? 2 : 1});
+/// The blocks with too many conflicts, sorted. \param conflicts sorted.
+std::vector<std::int32_t> foldedByNoise(const std::vector<Conflict>& conflicts) {
+  std::vector<std::int32_t> folded;
+  for (auto begin = conflicts.begin(); begin != conflicts.end();) {
+    const auto end =
+        std::find_if(begin, conflicts.end(), [&](const Conflict& c) { return c.edge0.block != begin->edge0.block; });
+    if (end - begin > kMostInBlock) folded.push_back(begin->edge0.block);
     begin = end;
   }
-  return result;
+  return folded;
 }
 
 }  // namespace
 
 std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<Conflict>& conflicts) {
-  std::vector<std::size_t> corners;
+  const std::vector<std::int32_t> folded = foldedByNoise(conflicts);
+  std::vector<std::size_t> vertices;
   std::erase_if(conflicts, [&](const Conflict& c) {
     mesh.monitor().throwIfStopped();
-    const std::size_t before = corners.size();
+    const std::size_t before = vertices.size();
     forEachCorner(c, [&](std::uint32_t v) {
-      if (const std::ptrdiff_t i = mesh.movable(v); i >= 0) corners.push_back(static_cast<std::size_t>(i));
+      if (const std::ptrdiff_t i = mesh.movable(v); i >= 0) vertices.push_back(static_cast<std::size_t>(i));
     });
-    return corners.size() != before;
+    return vertices.size() != before;
   });
-  const std::vector<Retraction> steps = retractions(mesh, corners);
-  std::vector<std::size_t> vertices;
-  for (const Retraction& r : steps) vertices.push_back(r.vertex);
-  tbb::parallel_for(std::size_t{0}, steps.size(),
-                    [&](std::size_t i) { mesh.retract(steps[i].vertex, steps[i].steps); });
+  sortUnique(vertices);
+  tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
+    const VertexState& v = mesh.vertices()[vertices[i]];
+    const bool inNoise = v.creaseNormals[0] == Vec3f{} && std::binary_search(folded.begin(), folded.end(), v.block);
+    mesh.retract(vertices[i], inNoise ? kStepsInNoise : 1);
+  });
   std::vector<EdgeRef> changed = mesh.quadsAt(vertices);
   mesh.chooseSafeDiagonals(changed);
   return changed;

@@ -13,7 +13,7 @@ namespace {
 /// By number of retractions, the share of the way from its safe place at which a vertex lies: on creases that are
 /// known, and elsewhere. Steps of halves cost half of the sharpness of creases.
 constexpr auto kShareOnCrease = std::to_array<float>({1, 0.9F, 0.8F, 0.7F, 0.6F, 0.5F, 0.35F, 0.2F, 0});
-constexpr auto kShare = std::to_array<float>({1, 0.85F, 0.6F, 0.3F, 0});
+constexpr auto kShare = std::to_array<float>({1, 0.9F, 0.75F, 0.5F, 0.25F, 0});
 
 std::span<const float> sharesOf(const VertexState& v) {
   if (v.creaseNormals[0] != Vec3f{}) return kShareOnCrease;
