@@ -166,7 +166,7 @@ std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector
 }  // namespace
 
 std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, NearFaces& near, const std::vector<Conflict>& conflicts) {
-  if (!mesh.faces().map().affine()) return {};
+  if (!mesh.faces().map().affine() || mesh.onCreases().empty()) return {};
   const std::vector<Candidate> candidates = findCandidates(mesh, conflicts);
   std::vector<std::size_t> vertices;
   for (const Candidate& c : candidates) vertices.push_back(c.vertex);
@@ -205,7 +205,7 @@ std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, NearFaces& near, cons
 std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, NearFaces& near) {
   if (!mesh.faces().map().affine()) return {};
   std::vector<std::size_t> displaced;
-  for (std::size_t i = 0; i < mesh.vertices().size(); ++i)
+  for (const std::size_t i : mesh.onCreases())
     if (mesh.vertices()[i].place != mesh.vertices()[i].wanted) displaced.push_back(i);
   std::vector<std::int32_t> blocks;
   for (const std::size_t i : displaced) blocks.push_back(mesh.vertices()[i].block);

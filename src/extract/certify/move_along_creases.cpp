@@ -13,6 +13,7 @@ std::vector<EdgeRef> moveAlongCreases(WorkingMesh& mesh, NearFaces& near, std::v
     ++mesh.vertices()[m.vertex].creaseMoves;
     moved.push_back(m.vertex);
   }
+  if (moved.empty()) return {};
   std::vector<EdgeRef> changed = mesh.quadsAt(moved);
   mesh.chooseSafeDiagonals(changed);
   std::vector<std::uint32_t> corners;

@@ -1,9 +1,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "extract/certify/remedies.h"
-#include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 namespace {
@@ -29,16 +29,20 @@ std::vector<std::int32_t> foldedByNoise(const std::vector<Conflict>& conflicts) 
 
 std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<Conflict>& conflicts) {
   const std::vector<std::int32_t> folded = foldedByNoise(conflicts);
-  std::vector<std::size_t> vertices;
+  std::vector<std::uint8_t> isAtConflict(mesh.vertices().size(), 0);
   std::erase_if(conflicts, [&](const Conflict& c) {
     mesh.monitor().throwIfStopped();
-    const std::size_t before = vertices.size();
+    bool any = false;
     forEachCorner(c, [&](std::uint32_t v) {
-      if (const std::ptrdiff_t i = mesh.movable(v); i >= 0) vertices.push_back(static_cast<std::size_t>(i));
+      const std::ptrdiff_t i = mesh.movable(v);
+      if (i >= 0) isAtConflict[static_cast<std::size_t>(i)] = 1;
+      any = any || i >= 0;
     });
-    return vertices.size() != before;
+    return any;
   });
-  sortUnique(vertices);
+  std::vector<std::size_t> vertices;
+  for (std::size_t i = 0; i < isAtConflict.size(); ++i)
+    if (isAtConflict[i] != 0) vertices.push_back(i);
   tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
     const VertexState& v = mesh.vertices()[vertices[i]];
     const bool inNoise = v.creaseNormals[0] == Vec3f{} && std::binary_search(folded.begin(), folded.end(), v.block);

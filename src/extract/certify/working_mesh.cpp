@@ -29,15 +29,19 @@ WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex
     : mEdgeCells(surface.blocks, surface.topology),
       mFans(surface.source, surface.blocks, mEdgeCells, mesh),
       mVertices(suspects.begin(), suspects.end()),
+      mAtEnd(suspects.size(), 0),
       mFaces(surface.source.map(), mEdgeCells, mFans, SuspectIndex(suspects), mVertices, mesh),
       mMesh(mesh),
-      mMonitor(monitor) {}
+      mMonitor(monitor) {
+  for (std::size_t i = 0; i < suspects.size(); ++i)
+    if (suspects[i].creaseNormals[0] != Vec3f{}) mOnCreases.push_back(i);
+}
 
 bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} >= sharesOf(v).size(); }
 
 std::ptrdiff_t WorkingMesh::movable(std::uint32_t vertex) const {
-  const VertexState* v = mFaces.suspect(vertex);
-  return v == nullptr || fullyRetracted(*v) ? -1 : v - mVertices.data();
+  const std::ptrdiff_t i = mFaces.suspectNumber(vertex);
+  return i < 0 || mAtEnd[static_cast<std::size_t>(i)] != 0 ? -1 : i;
 }
 
 void WorkingMesh::moveTo(std::size_t i, const Vec3f& place) {
@@ -50,12 +54,14 @@ void WorkingMesh::retract(std::size_t i, int steps) {
   VertexState& v = mVertices[i];
   const std::span<const float> shares = sharesOf(v);
   v.retractions = static_cast<std::uint8_t>(std::min<std::size_t>(v.retractions + steps, shares.size() - 1));
+  mAtEnd[i] = fullyRetracted(v);
   moveTo(i, v.safe + (v.retractedFrom - v.safe) * shares[v.retractions]);
 }
 
 void WorkingMesh::restartAt(std::size_t i, const Vec3f& place) {
   mVertices[i].retractedFrom = place;
   mVertices[i].retractions = 0;
+  mAtEnd[i] = 0;
   moveTo(i, place);
 }
 

@@ -32,6 +32,8 @@ class WorkingMesh {
   [[nodiscard]] const Mesh& mesh() const { return mMesh; }
   [[nodiscard]] std::vector<VertexState>& vertices() { return mVertices; }
   [[nodiscard]] const std::vector<VertexState>& vertices() const { return mVertices; }
+  /// Numbers of the suspect vertices on creases that are known.
+  [[nodiscard]] const std::vector<std::size_t>& onCreases() const { return mOnCreases; }
 
   /// Number among the suspect vertices of one that may still be moved, or -1.
   [[nodiscard]] std::ptrdiff_t movable(std::uint32_t vertex) const;
@@ -64,6 +66,8 @@ class WorkingMesh {
   EdgeCells mEdgeCells;
   Fans mFans;
   std::vector<VertexState> mVertices;
+  std::vector<std::uint8_t> mAtEnd;  ///< Beside mVertices, whether it is fully retracted: small, as it is asked often.
+  std::vector<std::size_t> mOnCreases;
   FaceTests mFaces;
   Mesh& mMesh;
   const Monitor& mMonitor;

@@ -45,6 +45,8 @@ class FaceTests {
   }
   /// \param place in lattice units from the centre of the vertex's cell.
   [[nodiscard]] Vec3f worldPosition(const SuspectVertex& v, const Vec3f& place) const;
+  /// The place of a vertex of the mesh among the suspect ones, or -1.
+  [[nodiscard]] std::ptrdiff_t suspectNumber(std::uint32_t vertex) const { return mSuspectIndex.find(vertex); }
   /// The suspect vertex of that number, or null.
   [[nodiscard]] const VertexState* suspect(std::uint32_t vertex) const {
     const std::ptrdiff_t i = mSuspectIndex.find(vertex);

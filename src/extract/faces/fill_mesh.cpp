@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "extract/faces/block_faces.h"
@@ -82,15 +83,44 @@ class MeshFiller {
     return total;
   }
 
-  void appendSuspects(Suspects& suspects) const {
-    for (const Suspects& d : mSuspects) suspects.append(d);
-    std::sort(suspects.vertices.begin(), suspects.vertices.end(),
-              [](const SuspectVertex& a, const SuspectVertex& b) { return a.vertex < b.vertex; });
-    std::sort(suspects.quads.begin(), suspects.quads.end());
+  void collectSuspects(Suspects& suspects) const {
+    suspects.vertices = inBlockOrder(&Suspects::vertices);
+    suspects.quads = inBlockOrder(&Suspects::quads);
+    for (const Suspects& s : mSuspects) suspects.forcedDiagonals += s.forcedDiagonals;
   }
 
  private:
   using FacelessBlocks = std::vector<std::size_t>;
+
+  /// What the threads noted, each block in one piece, one block after the other.
+  template <typename T>
+  [[nodiscard]] std::vector<T> inBlockOrder(std::vector<T> Suspects::*list) const {
+    struct Piece {
+      std::int32_t block;
+      std::span<const T> part;
+      std::size_t at = 0;
+    };
+    std::vector<Piece> pieces;
+    for (const Suspects& s : mSuspects) {
+      const std::vector<T>& own = s.*list;
+      for (auto begin = own.begin(); begin != own.end();) {
+        const auto end = std::find_if(begin, own.end(), [&](const auto& e) { return e.block != begin->block; });
+        pieces.push_back({begin->block, {begin, end}});
+        begin = end;
+      }
+    }
+    std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.block < b.block; });
+    std::size_t size = 0;
+    for (Piece& p : pieces) {
+      p.at = size;
+      size += p.part.size();
+    }
+    std::vector<T> all(size);
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+      std::copy(pieces[i].part.begin(), pieces[i].part.end(), all.begin() + static_cast<std::ptrdiff_t>(pieces[i].at));
+    });
+    return all;
+  }
 
   void fillSlabRun(std::size_t begin, std::size_t end) {
     BlockGroups groups(mSurface.topology, begin, end);
@@ -153,7 +183,7 @@ VertexCounts fillMesh(const Surface& surface, const FillMeshOptions& options, Me
   mesh.quads.resize(topology.quadCount);
   MeshFiller filler(surface, options, mesh, suspects != nullptr, monitor);
   const VertexCounts counts = filler.run();
-  if (suspects != nullptr) filler.appendSuspects(*suspects);
+  if (suspects != nullptr) filler.collectSuspects(*suspects);
   return counts;
 }
 

@@ -61,12 +61,6 @@ struct Suspects {
   std::vector<SuspectVertex> vertices;
   std::vector<EdgeRef> quads;  ///< Neither diagonal passes the quick test.
   std::uint64_t forcedDiagonals = 0;
-
-  void append(const Suspects& d) {
-    vertices.insert(vertices.end(), d.vertices.begin(), d.vertices.end());
-    quads.insert(quads.end(), d.quads.begin(), d.quads.end());
-    forcedDiagonals += d.forcedDiagonals;
-  }
 };
 
 }  // namespace pdc::detail

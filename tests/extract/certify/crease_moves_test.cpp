@@ -59,7 +59,7 @@ TEST_F(CreaseMovesTest, VerticesMoveAFewTimesAtMost) {
 }
 
 TEST_F(CreaseMovesTest, FullyRetractedVerticesDoNotMove) {
-  for (VertexState& v : mInput.working.vertices()) v.retractions = 8;
+  for (std::size_t i = 0; i < mInput.working.vertices().size(); ++i) mInput.working.retract(i, 8);
   ASSERT_TRUE(WorkingMesh::fullyRetracted(mInput.working.vertices()[0]));
   EXPECT_TRUE(findCreaseMoves(mInput.working, mNear, mConflicts).empty());
 }
