@@ -63,11 +63,12 @@ Coord indexFloor(const Vec3d& p) { return {indexFloor(p.x), indexFloor(p.y), ind
 template <typename Grid>
 class GridField final : public Field {
  public:
-  GridField(typename Grid::ConstPtr grid, double iso, bool insideIsHigher)
+  GridField(typename Grid::ConstPtr grid, double iso, bool insideIsHigher, bool finite)
       : mGrid(std::move(grid)),
         mToIndex(toIndex(*mGrid)),
         mIso(iso),
         mSign(insideIsHigher ? -1 : 1),
+        mFinite(finite),
         mRanges(mGrid->tree()) {}
 
   void values(PointSpan points, double* values) const override {
@@ -98,6 +99,12 @@ class GridField final : public Field {
     if (!(voxels.lo <= voxels.hi)) return Interval::whole();
     const Interval range = detail::widened(voxels, std::abs(mIso)) + -mIso;
     return mSign < 0 ? -range : range;
+  }
+
+  [[nodiscard]] bool definedIn(const Box& box) const override {
+    if (!mFinite || !(largestEntry(box) < detail::kUsual)) return false;
+    const Interval range = bound(box);
+    return range.lo > -detail::kUsual && range.hi < detail::kUsual;
   }
 
  private:
@@ -153,6 +160,7 @@ class GridField final : public Field {
   typename Grid::ConstPtr mGrid;
   ToIndex mToIndex;
   double mIso, mSign;
+  bool mFinite;  ///< Whether all voxels are.
   detail::VoxelRanges<typename Grid::TreeType> mRanges;
 };
 
@@ -163,7 +171,7 @@ FieldPtr gridField(const openvdb::GridBase::ConstPtr& grid, double iso, bool ins
   detail::requireFinite("gridField iso", iso);
   const auto make = [&]<typename Grid>(std::shared_ptr<const Grid> typed) -> FieldPtr {
     if (!acceptNonFinite) detail::requireFiniteVoxels(typed->tree());
-    return std::make_shared<GridField<Grid>>(std::move(typed), iso, insideIsHigher);
+    return std::make_shared<GridField<Grid>>(std::move(typed), iso, insideIsHigher, !acceptNonFinite);
   };
   if (auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return make(std::move(floats));
   if (auto doubles = openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid)) return make(std::move(doubles));

@@ -13,6 +13,9 @@ namespace pdc::detail {
 /// Relative room for rounding in a bound: thousands of times what a field's own arithmetic loses.
 inline constexpr double kRoundingSlack = 1e-12;
 
+/// Sizes below this, and their inverses, can be multiplied with each other a few times without overflow.
+inline constexpr double kUsual = 1e30;
+
 /// The range with room for the rounding of a value computed from numbers up to `magnitude`; whole() for NaN.
 inline Interval widened(Interval range, double magnitude) {
   const Interval wide{range.lo - kRoundingSlack * (magnitude + std::abs(range.lo)),

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "field/boundary.h"
+#include "field/interval_arithmetic.h"
 #include "math/lane_loops.h"
 #include "pdc/field/field.h"
 
@@ -16,7 +17,8 @@ struct ValueGradient {
 };
 
 /// A field written for one point: plain numbers and four functions. gradient() gives the same value as value(), bit for
-/// bit. A shape that holds its boundary also has size(), the largest number that places it.
+/// bit. A shape that holds its boundary also has size(), the largest number that places it; if that and the points are
+/// kUsual it has values, unless it says itself where, as Field::definedIn() does.
 template <typename Shape>
 concept PointShape = std::is_trivially_copyable_v<Shape> &&
     requires(const Shape& shape, const Vec3d& p, const Box& box) {
@@ -53,6 +55,12 @@ class PointwiseField final : public Field {
 
   [[nodiscard]] Interval bound(const Box& box) const override { return mShape.bound(box); }
   [[nodiscard]] double lipschitz() const override { return mShape.lipschitz(); }
+
+  [[nodiscard]] bool definedIn(const Box& box) const override {
+    if constexpr (requires { mShape.definedIn(box); }) return mShape.definedIn(box);
+    if constexpr (kClosed) return mShape.size() < kUsual && largestEntry(box) < kUsual;
+    return false;
+  }
 
  private:
   static constexpr bool kClosed = requires(const Shape& shape) { shape.size(); };

@@ -28,19 +28,27 @@ class MirroredField final : public Field {
     for (std::size_t i = 0; i < points.size; ++i) g[i] = p[i] < 0 ? -g[i] : g[i];
   }
 
-  [[nodiscard]] Interval bound(const Box& box) const override {
-    const Interval distance = detail::absolute({box.lo[mAxis], box.hi[mAxis]});
-    Box folded = box;
-    folded.lo[mAxis] = distance.lo;
-    folded.hi[mAxis] = distance.hi;
-    return mField->bound(folded);
-  }
+  [[nodiscard]] Interval bound(const Box& box) const override { return mField->bound(fold(box)); }
 
   [[nodiscard]] double lipschitz() const override { return mField->lipschitz(); }
+
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+  [[nodiscard]] FieldPtr simplified(const Box& box) const override {
+    FieldPtr field = mField->simplified(fold(box));
+    return field ? std::make_shared<MirroredField>(std::move(field), mAxis) : nullptr;
+  }
+  [[nodiscard]] bool definedIn(const Box& box) const override { return mField->definedIn(fold(box)); }
 
  private:
   [[nodiscard]] const double* coordinate(PointSpan points) const {
     return mAxis == 0 ? points.x : mAxis == 1 ? points.y : points.z;
+  }
+
+  [[nodiscard]] Box fold(Box box) const {
+    const Interval distance = detail::absolute({box.lo[mAxis], box.hi[mAxis]});
+    box.lo[mAxis] = distance.lo;
+    box.hi[mAxis] = distance.hi;
+    return box;
   }
 
   PointSpan fold(PointSpan points, double* folded) const {

@@ -72,6 +72,21 @@ class PlacedField final : public Field {
     return mPlacement.valueScale * mPlacement.stretch * mField->lipschitz();
   }
 
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+
+  [[nodiscard]] FieldPtr simplified(const Box& box) const override {
+    if (parts() == 1) return nullptr;
+    FieldPtr field = mField->simplified(detail::imageBox(mPlacement.linear, mPlacement.origin, box));
+    return field ? std::make_shared<PlacedField>(std::move(field), mPlacement) : nullptr;
+  }
+
+  [[nodiscard]] bool definedIn(const Box& box) const override {
+    const double largest = std::max({mPlacement.stretch, largestEntry(mPlacement.origin), largestEntry(box)});
+    return largest < detail::kUsual && mPlacement.valueScale > 1 / detail::kUsual &&
+           mPlacement.valueScale < detail::kUsual &&
+           mField->definedIn(detail::imageBox(mPlacement.linear, mPlacement.origin, box));
+  }
+
   /// Applies `outer` around `field`, merged with its own placement if it has one.
   static FieldPtr place(FieldPtr field, const Placement& outer) {
     const auto* placed = dynamic_cast<const PlacedField*>(field.get());

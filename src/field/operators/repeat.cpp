@@ -71,7 +71,27 @@ class RepeatedField final : public Field {
     return range;
   }
 
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+  [[nodiscard]] FieldPtr simplified(const Box& box) const override {
+    if (parts() == 1) return nullptr;
+    FieldPtr field = mField->simplified(fold(box));
+    return field ? std::make_shared<RepeatedField>(std::move(field), mAxes) : nullptr;
+  }
+  [[nodiscard]] bool definedIn(const Box& box) const override { return mField->definedIn(fold(box)); }
+
  private:
+  /// A box about all that a box becomes.
+  [[nodiscard]] Box fold(const Box& box) const {
+    Box folded;
+    for (int axis = 0; axis < 3; ++axis) {
+      const AxisRepeat::Pieces pieces = mAxes[axis].fold({box.lo[axis], box.hi[axis]});
+      const Interval all = detail::hull(pieces.piece[0], pieces.piece[pieces.size - 1]);
+      folded.lo[axis] = all.lo;
+      folded.hi[axis] = all.hi;
+    }
+    return folded;
+  }
+
   PointSpan fold(PointSpan points, double* x, double* y, double* z) const {
     const std::array<AxisRepeat, 3> axes = mAxes;
     for (std::size_t i = 0; i < points.size; ++i) x[i] = axes[0].fold(points.x[i]);

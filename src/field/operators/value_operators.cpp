@@ -65,6 +65,13 @@ class ValueField final : public Field {
   [[nodiscard]] Interval bound(const Box& box) const override { return mOperation.map(mField->bound(box)); }
   [[nodiscard]] double lipschitz() const override { return mField->lipschitz(); }
 
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+  [[nodiscard]] FieldPtr simplified(const Box& box) const override {
+    FieldPtr field = mField->simplified(box);
+    return field ? std::make_shared<ValueField>(std::move(field), mOperation) : nullptr;
+  }
+  [[nodiscard]] bool definedIn(const Box& box) const override { return mField->definedIn(box); }
+
  private:
   FieldPtr mField;
   Operation mOperation;

@@ -48,6 +48,9 @@ struct Ellipsoid {
     return detail::widened(detail::product({lo.k0 - 1, hi.k0 - 1}, ratio), (size() + largestEntry(box)) * flattening());
   }
 
+  [[nodiscard]] bool definedIn(const Box& box) const {
+    return smallestAxis() > 1 / detail::kUsual && size() < detail::kUsual && largestEntry(box) < detail::kUsual;
+  }
   [[nodiscard]] double lipschitz() const { return std::numeric_limits<double>::infinity(); }
   [[nodiscard]] double size() const { return largestEntry(center) + largestAxis(); }
 

@@ -79,6 +79,10 @@ struct Gyroid {
     return detail::widened(product(g, scale()), largestEntry(box) + (1 + thickness) * scale());
   }
 
+  [[nodiscard]] bool definedIn(const Box& box) const {
+    return wave > 1 / detail::kUsual && wave < detail::kUsual && thickness < detail::kUsual &&
+           largestEntry(box) < detail::kUsual;
+  }
   [[nodiscard]] double lipschitz() const { return 1; }
 };
 

@@ -74,6 +74,15 @@ class SimplexNoise final : public Field {
     return slope;
   }
 
+  /// Farther out cells are cut off, see simplex_kernel.h.
+  [[nodiscard]] bool definedIn(const Box& box) const override {
+    constexpr double kFarthest = 1e8;
+    return std::all_of(mOctaves.begin(), mOctaves.end(), [&](const Octave& o) {
+      return o.frequency * largestEntry(box) < kFarthest && o.frequency < detail::kUsual &&
+             o.amplitude < detail::kUsual;
+    });
+  }
+
  private:
   /// A batch of points, or a value and a gradient of each.
   struct Lanes {
