@@ -30,14 +30,14 @@ double crossingsOf(const BlockSearch& search, const Coord& block) {
   // Blocks share the edges in their upper faces with others.
   constexpr double kOwnShare = double(kBlockSize * kBlockSize) / (kBlockPoints * kBlockPoints);
   BlockSigns signs;
-  sampleSigns(search.field, search.frame, block, signs, nullptr);
+  sampleSigns(*search.fields.in(block, 0), search.frame, block, signs, nullptr);
   return signs.uniform() ? 0 : kOwnShare * EdgeIndex(signs).size();
 }
 
 }  // namespace
 
 SurfaceForecast forecastSurfaceBlocks(const BlockSearch& search, const Monitor& monitor) {
-  const Coord blocks = blockCounts(search);
+  const Coord blocks = blockCounts(search.cells);
   std::vector<Coord> cubes{Coord{0, 0, 0}};
   double weight = 1;  // Cubes that each one stands for.
   for (int level = topLevel(blocks); level > 0;) {

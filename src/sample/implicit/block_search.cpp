@@ -31,7 +31,7 @@ void forEach(std::size_t size, const Monitor& monitor, Body&& body) {
 
 /// All blocks whose parents the field's bounds do not exclude, sorted.
 std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor) {
-  const Coord blocks = blockCounts(search);
+  const Coord blocks = blockCounts(search.cells);
   int level = topLevel(blocks);
   std::vector<Coord> cubes{Coord{0, 0, 0}};
   while (level > 0) {
@@ -42,17 +42,18 @@ std::vector<Coord> candidates(const BlockSearch& search, const Monitor& monitor)
   return cubes;
 }
 
-bool sampleBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
-  sampleSigns(search.field, search.frame, block, signs, search.missing);
+bool sampleBlock(const BlockSearch& search, const Field& field, const Coord& block, BlockSigns& signs) {
+  sampleSigns(field, search.frame, block, signs, search.missing);
   signs.cells = search.open ? cellsWithin(block, search.cells) : CellMask::all();
   return !signs.uniform() && !signs.cells.none();
 }
 
 bool searchBlock(const BlockSearch& search, const Coord& block, BlockSigns& signs) {
-  const Interval bound = boundOf(search, block, 0);
+  const LocalField field = search.fields.in(block, 0);
+  const Interval bound = field->bound(searchBox(search, block, 0));
   if (oneSided(bound)) return false;
-  if (!bound.bounded() && !coarseSignsDiffer(search.field, search.frame, block, search.missing)) return false;
-  return sampleBlock(search, block, signs);
+  if (!bound.bounded() && !coarseSignsDiffer(*field, search.frame, block, search.missing)) return false;
+  return sampleBlock(search, *field, block, signs);
 }
 
 /// Appends those of `blocks` for which test(block, signs) finds surface, in order.
@@ -90,7 +91,7 @@ Coord neighbour(const Coord& block, int face) {
 template <typename Known>
 std::vector<Coord> missingNeighbours(const BlockSearch& search, const SurfaceBlocks& surface, std::size_t first,
                                      const Monitor& monitor, Known&& known) {
-  const Coord blocks = blockCounts(search);
+  const Coord blocks = blockCounts(search.cells);
   const auto within = [&](const Coord& c) {
     for (int axis = 0; axis < 3; ++axis)
       if (c[axis] < 0 || c[axis] >= blocks[axis]) return false;
@@ -126,7 +127,10 @@ void grow(const BlockSearch& search, const Monitor& monitor, SurfaceBlocks& surf
     for (const Coord& block : missing) grown.insert(key(block));
     appendSurface(
         search, missing, monitor, surface,
-        [&](const Coord& block, BlockSigns& signs) { return sampleBlock(search, block, signs); }, [](double) {});
+        [&](const Coord& block, BlockSigns& signs) {
+          return sampleBlock(search, *search.fields.in(block, 0), block, signs);
+        },
+        [](double) {});
   }
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "pdc/field/field.h"
 #include "pdc/sample/hermite_source.h"
 #include "sample/implicit/lattice_frame.h"
 #include "sample/implicit/missing_points.h"
+#include "sample/implicit/simplified_fields.h"
 
 namespace pdc::detail {
 
 /// Where to look for the zero set of a field.
 struct BlockSearch {
-  const Field& field;
+  const SimplifiedFields& fields;
   LatticeFrame frame;
   Coord cells;  ///< The lattice: cells [0, cells) on each axis.
   bool open;    ///< Only cells of the lattice take part; otherwise the field must be outside on and beyond its limits.

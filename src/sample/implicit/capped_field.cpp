@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace pdc::detail {
@@ -68,6 +69,11 @@ Interval CappedField::bound(const Box& box) const {
     cap = max(cap, {box.lo[axis] - mBox.hi[axis], box.hi[axis] - mBox.hi[axis]});
   }
   return max(mField->bound(box) + -mIso, cap);
+}
+
+FieldPtr CappedField::simplified(const Box& box) const {
+  FieldPtr field = mField->simplified(box);
+  return field ? std::make_shared<CappedField>(std::move(field), mIso, mBox) : nullptr;
 }
 
 }  // namespace pdc::detail

@@ -14,6 +14,8 @@ class CappedField final : public Field {
   void values(PointSpan points, double* values) const override;
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override;
   [[nodiscard]] Interval bound(const Box& box) const override;
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+  [[nodiscard]] FieldPtr simplified(const Box& box) const override;
 
  private:
   FieldPtr mField;

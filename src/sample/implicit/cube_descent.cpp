@@ -3,31 +3,21 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "sample/implicit/cube_box.h"
 
 namespace pdc::detail {
 
-Coord blockCounts(const BlockSearch& search) {
+Coord blockCounts(const Coord& cells) {
   Coord n;
-  for (int axis = 0; axis < 3; ++axis) n[axis] = (search.cells[axis] + kBlockSize - 1) / kBlockSize;
+  for (int axis = 0; axis < 3; ++axis) n[axis] = (cells[axis] + kBlockSize - 1) / kBlockSize;
   return n;
 }
 
-Interval boundOf(const BlockSearch& search, const Coord& cube, int level) {
-  constexpr double kRelativeMargin = 1e-6;
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
-  const double size = std::ldexp(kBlockSize, level);
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double first = cube[axis] * size;
-    const double lo = search.frame.at(axis, first), hi = search.frame.at(axis, first + size);
-    const double margin = kRelativeMargin * search.frame.voxelSize + kRounding * std::max(std::abs(lo), std::abs(hi));
-    box.lo[axis] = lo - margin;
-    box.hi[axis] = hi + margin;
-  }
-  return search.field.bound(box);
+Box searchBox(const BlockSearch& search, const Coord& cube, int level) {
+  constexpr double kMargin = 1e-6;  // voxels
+  return cubeBox(search.frame, cube, level, kMargin);
 }
 
 std::vector<Coord> children(const std::vector<Coord>& cubes, int level, const Coord& blocks) {
@@ -47,7 +37,7 @@ void dropOneSided(const BlockSearch& search, int level, const Monitor& monitor, 
   std::vector<std::uint8_t> drop(cubes.size());
   tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) {
     monitor.throwIfStopped();
-    drop[i] = oneSided(boundOf(search, cubes[i], level));
+    drop[i] = oneSided(search.fields.in(cubes[i], level)->bound(searchBox(search, cubes[i], level)));
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cubes.size(); ++i)

@@ -8,15 +8,15 @@
 /// The descent from one box over the lattice to its blocks, by cubes of 2^level blocks along an axis.
 namespace pdc::detail {
 
-/// Blocks of the lattice along each axis.
-[[nodiscard]] Coord blockCounts(const BlockSearch& search);
+/// Blocks along each axis of a lattice of so many cells.
+[[nodiscard]] Coord blockCounts(const Coord& cells);
 
 /// The level of the one cube that holds all blocks.
 [[nodiscard]] int topLevel(const Coord& blocks);
 
-/// Bound over a cube. The cube is grown a little, so that neither the rounding of lattice points nor that of bound()
-/// itself can hide a surface that touches it.
-[[nodiscard]] Interval boundOf(const BlockSearch& search, const Coord& cube, int level);
+/// The box of a cube, grown a little, so that neither the rounding of lattice points nor that of bound() itself can
+/// hide a surface that touches it.
+[[nodiscard]] Box searchBox(const BlockSearch& search, const Coord& cube, int level);
 
 /// Whether a bound excludes a surface; a zero may be on either side.
 [[nodiscard]] inline bool oneSided(const Interval& bound) { return bound.lo > 0 || bound.hi < 0; }

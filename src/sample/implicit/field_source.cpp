@@ -14,9 +14,11 @@
 #include "sample/implicit/block_forecast.h"
 #include "sample/implicit/block_search.h"
 #include "sample/implicit/capped_field.h"
+#include "sample/implicit/cube_descent.h"
 #include "sample/implicit/edge_roots.h"
 #include "sample/implicit/missing_points.h"
 #include "sample/implicit/root_normals.h"
+#include "sample/implicit/simplified_fields.h"
 
 namespace pdc {
 namespace {
@@ -63,8 +65,9 @@ FieldPtr makeLevelField(FieldPtr field, const FieldSourceOptions& options) {
   return std::make_shared<detail::CappedField>(std::move(field), options.iso, cap);
 }
 
-detail::BlockSearch searchOf(const Field& field, const FieldSourceOptions& options, detail::MissingPoints* missing) {
-  return {field, frameOf(options), cellCounts(options), options.open, missing};
+detail::BlockSearch searchOf(const detail::SimplifiedFields& fields, const FieldSourceOptions& options,
+                             detail::MissingPoints* missing) {
+  return {fields, frameOf(options), cellCounts(options), options.open, missing};
 }
 
 }  // namespace
@@ -78,25 +81,29 @@ FieldSource::FieldSource(FieldPtr field, const FieldSourceOptions& options)
     : mFunction(field),
       mField(makeLevelField(std::move(field), options)),
       mOptions(options),
+      mFields(std::make_shared<detail::SimplifiedFields>(mField, frameOf(options),
+                                                         detail::blockCounts(cellCounts(options)))),
       mMap(Mat3d::diagonal(options.voxelSize, options.voxelSize, options.voxelSize), options.box.lo) {}
 
 SurfaceBlocks FieldSource::surfaceBlocks(const Monitor& monitor) const {
   detail::MissingPoints missing(*mFunction, frameOf(mOptions), cellCounts(mOptions));
-  return detail::findSurfaceBlocks(searchOf(*mField, mOptions, mOptions.acceptNonFinite ? nullptr : &missing), monitor);
+  return detail::findSurfaceBlocks(searchOf(*mFields, mOptions, mOptions.acceptNonFinite ? nullptr : &missing),
+                                   monitor);
 }
 
 std::optional<SurfaceForecast> FieldSource::forecast(const Monitor& monitor) const {
-  return detail::forecastSurfaceBlocks(searchOf(*mField, mOptions, nullptr), monitor);
+  return detail::forecastSurfaceBlocks(searchOf(*mFields, mOptions, nullptr), monitor);
 }
 
 void FieldSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
   const detail::LatticeFrame frame = frameOf(mOptions);
+  const detail::LocalField field = mFields->in(block.coord, 0);
   detail::EdgeBatch batch;
   std::array<double, detail::EdgeBatch::kCapacity> t;
   std::size_t done = 0;
   const auto flush = [&] {
-    detail::findEdgeRoots(*mField, frame, batch, t.data());
-    detail::findRootNormals(*mField, frame, batch, t.data(), hermite, done);
+    detail::findEdgeRoots(*field, frame, batch, t.data());
+    detail::findRootNormals(*field, frame, batch, t.data(), hermite, done);
     for (std::size_t i = 0; i < batch.size; ++i) hermite.t[done + i] = static_cast<float>(t[i]);
     done += batch.size;
     batch.size = 0;

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "pdc/field/field.h"
 #include "pdc/sample/hermite_source.h"
 
 namespace pdc {
+namespace detail {
+class SimplifiedFields;
+}
 
 /// The most voxels that a FieldSource's lattice may have along an axis.
 inline constexpr int kMaxVoxelsPerAxis = 1 << 20;
@@ -36,7 +40,8 @@ struct FieldSourceOptions {
 /// every fourth lattice point; the surface is then followed across block faces from where it was seen, so only
 /// components that slip through that coarse lattice altogether are missed. Crossings are bracketed to 2^-20 of the
 /// edge; normals are the field's gradients there, or a hair inside the edge where it is crossed at its end, and, where
-/// those are not finite or zero, central differences. \throws Error for an empty box, a voxel size that is not
+/// those are not finite or zero, central differences. A field of many parts costs what the parts near a block cost, see
+/// Field::simplified(), with the same results. \throws Error for an empty box, a voxel size that is not
 /// positive, gives too many voxels or is below 2^-32 of the box's coordinates; std::invalid_argument for null.
 class FieldSource final : public HermiteSource {
  public:
@@ -56,6 +61,7 @@ class FieldSource final : public HermiteSource {
   FieldPtr mFunction;  ///< What was given.
   FieldPtr mField;
   FieldSourceOptions mOptions;
+  std::shared_ptr<const detail::SimplifiedFields> mFields;  ///< Of mField.
   LatticeMap mMap;
 };
 
