@@ -27,29 +27,37 @@
 namespace {
 
 constexpr int kRuns = 5;
-/// Larger boxes are not sampled whole.
+/// Larger boxes, and fields of more parts, are not sampled whole.
 constexpr int kMostSampled = 512;
+constexpr std::size_t kMostPartsSampled = 100;
 
 /// Counts the points that a field is asked for; a gradient counts as one.
 class CountingField final : public pdc::Field {
  public:
-  explicit CountingField(pdc::FieldPtr field) : mField(std::move(field)) {}
+  using Count = std::shared_ptr<std::atomic<std::size_t>>;
+
+  CountingField(pdc::FieldPtr field, Count points) : mField(std::move(field)), mPoints(std::move(points)) {}
 
   void values(pdc::PointSpan points, double* values) const override {
-    mPoints += points.size;
+    *mPoints += points.size;
     mField->values(points, values);
   }
   void gradients(pdc::PointSpan points, double* values, pdc::GradientSpan gradients) const override {
-    mPoints += points.size;
+    *mPoints += points.size;
     mField->gradients(points, values, gradients);
   }
   [[nodiscard]] pdc::Interval bound(const pdc::Box& box) const override { return mField->bound(box); }
   [[nodiscard]] double lipschitz() const override { return mField->lipschitz(); }
-  [[nodiscard]] std::size_t points() const { return mPoints; }
+  [[nodiscard]] std::size_t parts() const override { return mField->parts(); }
+  [[nodiscard]] pdc::FieldPtr simplified(const pdc::Box& box) const override {
+    pdc::FieldPtr field = mField->simplified(box);
+    return field ? std::make_shared<CountingField>(std::move(field), mPoints) : nullptr;
+  }
+  [[nodiscard]] bool definedIn(const pdc::Box& box) const override { return mField->definedIn(box); }
 
  private:
   pdc::FieldPtr mField;
-  mutable std::atomic<std::size_t> mPoints{0};
+  Count mPoints;
 };
 
 /// Median of several runs after one that does not count, in milliseconds.
@@ -79,21 +87,48 @@ void sampleBox(const pdc::Field& field, const pdc::Box& box, int n, double h) {
   });
 }
 
-/// A union of n spheres in rows, side by side.
-pdc::Scene manyParts(int n) {
+pdc::Scene unionOf(const char* what, std::vector<pdc::FieldPtr> parts) {
   pdc::Scene scene;
-  scene.name = fmt::format("union_of_{}", n);
+  scene.name = fmt::format("{}_{}", parts.size(), what);
   scene.box = {{-1, -1, -1}, {1, 1, 1}};
-  const int perAxis = static_cast<int>(std::ceil(std::cbrt(n)));
-  const double step = 2.0 / perAxis;
-  std::vector<pdc::FieldPtr> parts;
-  for (int i = 0; i < n; ++i)
-    parts.push_back(
-        pdc::sphere(pdc::Vec3d{i / (perAxis * perAxis) + 0.5, i / perAxis % perAxis + 0.5, i % perAxis + 0.5} * step -
-                        pdc::Vec3d{1, 1, 1},
-                    0.4 * step));
   scene.field = pdc::unite(std::move(parts));
   return scene;
+}
+
+/// Cells of a cube from -1 to 1.
+struct Cells {
+  int perAxis;
+  double step = 2.0 / perAxis;
+
+  explicit Cells(int atLeast) : perAxis(static_cast<int>(std::ceil(std::cbrt(atLeast) - 1e-9))) {}
+  /// A point of a cell, from (0, 0, 0) to (1, 1, 1).
+  [[nodiscard]] pdc::Vec3d at(int cell, const pdc::Vec3d& p) const {
+    const pdc::Vec3d corner{double(cell / (perAxis * perAxis)), double(cell / perAxis % perAxis),
+                            double(cell % perAxis)};
+    return (corner + p) * step - pdc::Vec3d{1, 1, 1};
+  }
+};
+
+constexpr pdc::Vec3d kMiddle{0.5, 0.5, 0.5};
+
+/// A union of n spheres in rows, side by side.
+pdc::Scene manySpheres(int n) {
+  const Cells cells(n);
+  std::vector<pdc::FieldPtr> parts;
+  for (int i = 0; i < n; ++i) parts.push_back(pdc::sphere(cells.at(i, kMiddle), 0.4 * cells.step));
+  return unionOf("spheres", std::move(parts));
+}
+
+/// A union of n struts from the middles of cells to their corners, eight in each.
+pdc::Scene manyStruts(int n) {
+  constexpr int kCorners = 8;
+  const Cells cells((n + kCorners - 1) / kCorners);
+  std::vector<pdc::FieldPtr> parts;
+  for (int i = 0; i < n; ++i) {
+    const pdc::Vec3d corner{double(i >> 2 & 1), double(i >> 1 & 1), double(i & 1)};
+    parts.push_back(pdc::cylinder(cells.at(i / kCorners, kMiddle), cells.at(i / kCorners, corner), 0.08 * cells.step));
+  }
+  return unionOf("struts", std::move(parts));
 }
 
 void printRow(const pdc::Scene& scene, int resolution, int threads, double& previous) {
@@ -105,15 +140,15 @@ void printRow(const pdc::Scene& scene, int resolution, int threads, double& prev
                         {.sigmaNormal = scene.sigmaNormal.value_or(0.05)})
         .positions.size();
   };
-  const auto counting = std::make_shared<CountingField>(scene.field);
-  const auto vertices = static_cast<double>(contour(counting));
+  const auto points = std::make_shared<std::atomic<std::size_t>>(0);
+  const auto vertices = static_cast<double>(contour(std::make_shared<CountingField>(scene.field, points)));
   const double time = milliseconds([&] { contour(scene.field); });
   const auto growth = previous > 0 ? fmt::format("{:.2f}", std::log2(time / previous)) : std::string();
-  const auto box = resolution <= kMostSampled
+  const auto box = resolution <= kMostSampled && scene.field->parts() <= kMostPartsSampled
                        ? fmt::format("{:.0f}", milliseconds([&] { sampleBox(*scene.field, scene.box, resolution, h); }))
                        : std::string();
   fmt::print("{:20} {:6} {:7} {:9.0f} {:9.1f} {:10.0f} {:9.1f} {:6} {:>10}\n", scene.name, resolution, threads,
-             vertices, time, 1e6 * time / vertices, static_cast<double>(counting->points()) / vertices, growth, box);
+             vertices, time, 1e6 * time / vertices, static_cast<double>(*points) / vertices, growth, box);
   std::fflush(stdout);
   previous = time;
 }
@@ -129,7 +164,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "How many")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("SCENES", scenes, "Four of the project's own, unless others are named")->check(CLI::ExistingFile);
   int parts = 0;
-  app.add_option("--parts", parts, "A union of so many spheres, at 32 and 64 cells, instead of scenes")
+  app.add_option("--parts", parts, "Unions of so many spheres and struts, instead of scenes")
       ->check(CLI::Range(1, 100'000));
   CLI11_PARSE(app, argc, argv);
   fmt::print("{:20} {:>6} {:>7} {:>9} {:>9} {:>10} {:>9} {:>6} {:>10}\n", "scene", "cells", "threads", "vertices", "ms",
@@ -139,7 +174,7 @@ int main(int argc, char** argv) {
     for (const int resolution : resolutions) printRow(scene, resolution, threads, previous);
   };
   if (parts > 0) {
-    printRows(manyParts(parts), {32, 64});
+    for (const pdc::Scene& scene : {manySpheres(parts), manyStruts(parts)}) printRows(scene, {128, 256});
     return 0;
   }
   for (const auto& path : scenes) {
