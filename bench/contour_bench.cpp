@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Composite.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -56,6 +57,18 @@ FloatGrid::Ptr noise(int n) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
   return rough(n, [&](int, int, int) { return normal(random); });
+}
+
+/// A level set of so many droplets, some of which overlap, in a cube of n³ voxels.
+FloatGrid::Ptr droplets(int count, int n) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> place(0, static_cast<float>(n)), radius(2, 8);
+  FloatGrid::Ptr all = openvdb::createLevelSet<FloatGrid>(1.0F, 3.0F);
+  for (int i = 0; i < count; ++i) {
+    const openvdb::Vec3f center(place(random), place(random), place(random));
+    openvdb::tools::csgUnion(*all, *openvdb::tools::createLevelSetSphere<FloatGrid>(radius(random), center, 1.0F, 3.0F));
+  }
+  return all;
 }
 
 /// The first float grid of a file; null where there is none.
@@ -197,6 +210,7 @@ int main(int argc, char** argv) {
         addAll({"checkerboard_" + std::to_string(n), [n] { return checkerboard(n); }});
         addAll({"noise_" + std::to_string(n), [n] { return noise(n); }});
       }
+      addAll({"droplets_300", [] { return droplets(300, 110); }});
     } else if (const FloatGrid::Ptr grid = read(argument)) {
       addAll({argument.substr(argument.rfind('/') + 1), [grid] { return grid; }});
     } else {

@@ -166,6 +166,7 @@ std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector
 }  // namespace
 
 std::vector<VertexMove> findCreaseMoves(WorkingMesh& mesh, NearFaces& near, const std::vector<Conflict>& conflicts) {
+  mesh.monitor().throwIfStopped();
   if (!mesh.faces().map().affine() || mesh.onCreases().empty()) return {};
   const std::vector<Candidate> candidates = findCandidates(mesh, conflicts);
   std::vector<std::size_t> vertices;

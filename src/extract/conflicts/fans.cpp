@@ -1,7 +1,7 @@
 #include "extract/conflicts/fans.h"
 
 #include <algorithm>
-#include <functional>
+#include <limits>
 
 namespace pdc::detail {
 namespace {
@@ -22,7 +22,12 @@ struct Fans::Crossings {
 };
 
 Fans::Fans(const HermiteSource& source, const SurfaceBlocks& blocks, const EdgeCells& edgeCells, Mesh& mesh)
-    : mSource(source), mBlocks(blocks), mEdgeCells(edgeCells), mMesh(mesh), mIsFan((mesh.quads.size() + 63) / 64) {}
+    : mSource(source),
+      mBlocks(blocks),
+      mEdgeCells(edgeCells),
+      mMesh(mesh),
+      mFirstVertex(static_cast<std::uint32_t>(mesh.positions.size())),
+      mIsFan((mesh.quads.size() + 63) / 64) {}
 
 Fans::~Fans() = default;
 
@@ -127,20 +132,56 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
 
 std::size_t Fans::replaceQuads(const Monitor& monitor) {
   std::vector<std::uint64_t> faces;
+  std::vector<Triangle> fan;
   for (const auto& [edge, center] : mCenter) {
     monitor.throwIfStopped();
     faces.push_back(mEdgeCells.face(edge));
-    std::vector<Triangle> fan;
+    fan.clear();
     triangles(edge, fan);
     mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());
   }
-  std::sort(faces.begin(), faces.end(), std::greater<>());
-  for (const std::uint64_t face : faces) {
-    mMesh.quads[face] = mMesh.quads.back();
-    mMesh.quads.pop_back();
-  }
+  renumber();
+  removeQuads(faces);
+  return countPartedEdges(monitor);
+}
 
-  // A face vertex lies in two triangles of each fan at its place; where there is one fan, it parts a boundary edge.
+/// Numbers the new vertices as the fans, in the order of their edges, have them first.
+void Fans::renumber() {
+  constexpr auto kUnnumbered = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(mMesh.positions.size() - mFirstVertex, kUnnumbered);
+  std::uint32_t next = mFirstVertex;
+  for (Triangle& t : mMesh.triangles)
+    for (std::uint32_t& v : t) {
+      if (v < mFirstVertex) continue;
+      std::uint32_t& n = number[v - mFirstVertex];
+      if (n == kUnnumbered) n = next++;
+      v = n;
+    }
+  const auto reorder = [&](Buffer<Vec3f>& values) {
+    if (values.empty()) return;
+    const std::vector<Vec3f> before(values.begin() + mFirstVertex, values.end());
+    for (std::size_t i = 0; i < before.size(); ++i) values[number[i]] = before[i];
+  };
+  reorder(mMesh.positions);
+  reorder(mMesh.normals);
+  for (auto& [joined, vertex] : mFaceVertex) vertex = number[vertex - mFirstVertex];
+}
+
+/// \param faces sorted.
+void Fans::removeQuads(const std::vector<std::uint64_t>& faces) {
+  if (faces.empty()) return;
+  auto end = mMesh.quads.begin() + static_cast<std::ptrdiff_t>(faces[0]);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::uint64_t next = i + 1 < faces.size() ? faces[i + 1] : mMesh.quads.size();
+    end = std::move(mMesh.quads.begin() + static_cast<std::ptrdiff_t>(faces[i] + 1),
+                    mMesh.quads.begin() + static_cast<std::ptrdiff_t>(next), end);
+  }
+  mMesh.quads.resize(static_cast<std::size_t>(end - mMesh.quads.begin()));
+}
+
+/// A face vertex lies in two triangles of each fan at its place; where there is one fan, it parts a boundary edge.
+std::size_t Fans::countPartedEdges(const Monitor& monitor) const {
+  if (mFaceVertex.empty()) return 0;
   std::map<std::uint32_t, int> uses;
   for (const auto& [joined, vertex] : mFaceVertex) uses.emplace(vertex, 0);
   for (const Triangle& t : mMesh.triangles) {

@@ -34,8 +34,10 @@ class Fans {
   /// Appends the triangles of a fan, wound like its quad.
   void triangles(const EdgeRef& e, std::vector<Triangle>& out) const;
 
-  /// Puts the triangles of all fans in the place of their quads. Quads from the end fill the gaps. \returns by how many
-  /// edges that lengthens the boundary of the mesh. \throws Cancelled.
+  /// Takes out the quads that are fans, and appends the triangles of these by ascending edge. The new vertices get
+  /// numbers in that order, so that a mesh does not depend on the order in which fans were made, and all arrays are in
+  /// the order of blocks: the old vertices, the new ones, the quads and the triangles. \returns by how many edges that
+  /// lengthens the boundary of the mesh. \throws Cancelled.
   std::size_t replaceQuads(const Monitor& monitor);
 
   /// The number of a vertex appended to so many. \throws Error if 32 bits cannot hold it.
@@ -62,11 +64,15 @@ class Fans {
   /// Where the surface crosses an edge of a cell, in lattice space.
   [[nodiscard]] Vec3d crossing(const CellRef& c, int edge);
   std::uint32_t append(const Vec3d& position, const EdgeRef& at);
+  void renumber();
+  void removeQuads(const std::vector<std::uint64_t>& faces);
+  [[nodiscard]] std::size_t countPartedEdges(const Monitor& monitor) const;
 
   const HermiteSource& mSource;
   const SurfaceBlocks& mBlocks;
   const EdgeCells& mEdgeCells;
   Mesh& mMesh;
+  const std::uint32_t mFirstVertex;   ///< The number of the first new vertex.
   std::vector<std::uint64_t> mIsFan;  ///< A bit per face.
   std::map<EdgeRef, std::uint32_t> mCenter;
   std::set<Cell> mSplit;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sample/block_hash.h"
 #include "sample/meaning/contourable_grids.h"
 #include "sample/vdb/gradient_stencil.h"
 #include "sample/vdb/isovalue_points.h"
@@ -105,9 +106,9 @@ class TypedGridSampler final : public GridSampler {
   }
 
   [[nodiscard]] std::vector<Coord> someLeaves(std::size_t most) const override {
-    std::vector<Coord> some(std::min(most, mTable.size()));
-    for (std::size_t i = 0; i < some.size(); ++i) some[i] = mTable.coord(i * mTable.size() / some.size());
-    return some;
+    std::vector<Coord> all(mTable.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = mTable.coord(i);
+    return sampleOfBlocks(all, most);
   }
 
   void readDistances(const Coord& block, float scale, DistanceStencil& stencil) const override {

@@ -38,7 +38,7 @@ class GridSampler {
   [[nodiscard]] virtual SurfaceForecast forecast(const Monitor& monitor) const = 0;
   virtual void prefetch(const Coord& block) const = 0;
   virtual void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const = 0;
-  /// Returns up to `most` leaves, as blocks, spread evenly over the tree.
+  /// Returns up to `most` leaves, as blocks; see sampleOfBlocks().
   [[nodiscard]] virtual std::vector<Coord> someLeaves(std::size_t most) const = 0;
   /// Reads the values about a block, times `scale`, into the rows that the stencil asks for; NaN where a value is
   /// clamped or not finite. Other rows are left as they are.

@@ -87,9 +87,12 @@ TEST(MoveAlongCreases, ConflictsAtFacesOfMovedVerticesWait) {
   EXPECT_LT(c.near.findConflicts(c.active).size(), before.size());
 }
 
-TEST(RetractVertices, RetractsTheVerticesOfConflictsByAStep) {
+/// \param most conflicts, all of which lie in one block. \param steps that their vertices then take.
+void expectRetractions(std::size_t most, int steps) {
   const SignSource source = noise();
   Conflicting c(source);
+  ASSERT_EQ(c.input.blocks.coords.size(), 1U);
+  c.conflicts.resize(std::min(c.conflicts.size(), most));
   const std::vector<Conflict> before = c.conflicts;
   std::set<std::uint32_t> corners;
   for (const Conflict& o : before) forEachCorner(o, [&](std::uint32_t v) { corners.insert(v); });
@@ -102,12 +105,16 @@ TEST(RetractVertices, RetractsTheVerticesOfConflictsByAStep) {
   std::vector<std::size_t> retracted;
   for (std::size_t i = 0; i < c.input.working.vertices().size(); ++i) {
     const VertexState& v = c.input.working.vertices()[i];
-    ASSERT_EQ(v.retractions, corners.contains(static_cast<std::uint32_t>(v.vertex)) ? 1 : 0);
+    ASSERT_EQ(v.retractions, corners.contains(static_cast<std::uint32_t>(v.vertex)) ? steps : 0);
     if (v.retractions != 0) retracted.push_back(i);
   }
   ASSERT_FALSE(retracted.empty());
   EXPECT_EQ(changed, c.input.working.quadsAt(retracted));
 }
+
+TEST(RetractVertices, RetractsTheVerticesOfConflictsByAStep) { expectRetractions(32, 1); }
+
+TEST(RetractVertices, TakesThreeStepsWhereNoiseHasFoldedABlock) { expectRetractions(1000, 3); }
 
 TEST(RetractVertices, LeavesConflictsOfFullyRetractedVertices) {
   const SignSource source = noise();

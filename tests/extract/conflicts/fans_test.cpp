@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -75,6 +76,30 @@ TEST_F(FansTest, ReplaceQuadsKeepsTheOthersAndClosesTheMesh) {
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.misorientedEdges, 0U);
   EXPECT_EQ(facts.eulerNumber, 2);
+}
+
+TEST_F(FansTest, TheMeshDoesNotDependOnTheOrderInWhichFansAreMade) {
+  std::mt19937 random(51);
+  const SignSource source = randomGrid(random, 6, false);
+  std::vector<Mesh> meshes;
+  for (const bool backwards : {false, true}) {
+    UncertifiedMesh input(source, 0.02, kUnstopped, true);
+    std::vector<EdgeRef> edges = input.edges();
+    std::vector<Quad> kept;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (i % 4 != 0) kept.push_back(input.mesh.quads[input.working.edgeCells().face(edges[i])]);
+    if (backwards) std::reverse(edges.begin(), edges.end());
+    const std::size_t last = (edges.size() - 1) % 4;
+    for (std::size_t i = backwards ? last : 0; i < edges.size(); i += 4) input.working.fans().add(edges[i]);
+    (void)input.working.fans().replaceQuads({});
+    EXPECT_TRUE(std::equal(kept.begin(), kept.end(), input.mesh.quads.begin(), input.mesh.quads.end()))
+        << "the quads left are not in order";
+    meshes.push_back(input.mesh);
+  }
+  EXPECT_EQ(meshes[0].positions, meshes[1].positions);
+  EXPECT_EQ(meshes[0].normals, meshes[1].normals);
+  EXPECT_EQ(meshes[0].quads, meshes[1].quads);
+  EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
 }
 
 TEST_F(FansTest, ASplitCellIsJoinedToOthersThroughItsFaces) {
