@@ -64,10 +64,10 @@ void checkForecast(const MeshRequest& request, const Input& input, const MeshRun
   const auto forecast = forecastContour(*input.source, run.options, {.stop = &interruptFlag()});
   if (!forecast) return;
   detail::checkMemory(forecast->memory, forecast->vertices, run.options);
-  constexpr double kMuch = 1e9, kGiga = 1e9, kMega = 1e6;
+  constexpr double kMuch = 1e9;
   if (forecast->memory < kMuch || request.quiet) return;
-  std::fputs(fmt::format("pdc: about {:.2g} million vertices, {:.1f} GB of memory, a file of {:.1f} GB\n",
-                         forecast->vertices / kMega, forecast->memory / kGiga, fileSize(request, *forecast) / kGiga)
+  std::fputs(fmt::format("pdc: about {} vertices, {} of memory, a file of {}\n", detail::countText(forecast->vertices),
+                         detail::bytesText(forecast->memory), detail::bytesText(fileSize(request, *forecast)))
                  .c_str(),
              stderr);
 }

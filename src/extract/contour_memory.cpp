@@ -25,11 +25,22 @@ void checkMemory(double bytes, double vertices, const ContourOptions& options) {
   const double machine = available > 0 ? inUse + available : bytes + inUse;
   const double limit = options.maxMemory > 0 ? std::min(static_cast<double>(options.maxMemory), machine) : machine;
   if (bytes + inUse <= limit) return;
-  constexpr double kMega = 1e6;
-  throw Error(fmt::format(
-      "about {:.3g} million vertices take about {:.0f} MB of memory, more than the {:.0f} MB that {}; a coarser "
-      "lattice takes less",
-      vertices / kMega, (bytes + inUse) / kMega, limit / kMega, limit < machine ? "are allowed" : "the machine has"));
+  throw Error(
+      fmt::format("about {} vertices take about {} of memory, more than the {} that {}; a coarser lattice takes less",
+                  countText(vertices), bytesText(bytes + inUse), bytesText(limit),
+                  limit < machine ? "are allowed" : "the machine has"));
+}
+
+std::string countText(double count) {
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  if (count < kMega) return fmt::format("{:.0f}", count);
+  return count < kGiga ? fmt::format("{:.3g} million", count / kMega) : fmt::format("{:.1f} billion", count / kGiga);
+}
+
+std::string bytesText(double bytes) {
+  constexpr double kKilo = 1e3, kMega = 1e6, kGiga = 1e9;
+  if (bytes < kMega) return fmt::format("{:.0f} kB", bytes / kKilo);
+  return bytes < 10 * kGiga ? fmt::format("{:.0f} MB", bytes / kMega) : fmt::format("{:.0f} GB", bytes / kGiga);
 }
 
 }  // namespace pdc::detail

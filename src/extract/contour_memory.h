@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "pdc/extract/contour.h"
 
 namespace pdc::detail {
@@ -11,5 +13,10 @@ namespace pdc::detail {
 
 /// \throws Error with both figures if so many bytes more do not fit into options.maxMemory, or into the machine.
 void checkMemory(double bytes, double vertices, const ContourOptions& options);
+
+/// "512", "2.5 million", "25.7 billion".
+[[nodiscard]] std::string countText(double count);
+/// "5 kB", "120 MB", "16 GB".
+[[nodiscard]] std::string bytesText(double bytes);
 
 }  // namespace pdc::detail
