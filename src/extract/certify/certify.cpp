@@ -87,6 +87,7 @@ CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& me
     counts.shortened += !safe && v.place != v.wanted;
   }
   counts.addedBoundaryEdges = working.fans().replaceQuads(monitor);
+  monitor.throwIfStopped();
   progress.finish();
   return counts;
 }

@@ -62,7 +62,7 @@ TEST_F(DistanceProbeTest, RoughSurfacesAreTextureNotNoise) {
   std::vector<openvdb::Vec4I> quads;
   for (const Vec3f& p : rough.positions) points.emplace_back(p.x, p.y, p.z);
   for (const Quad& q : rough.quads) quads.emplace_back(q[0], q[1], q[2], q[3]);
-  const auto transform = openvdb::math::Transform::createLinearTransform(1.1);
+  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
   const auto grid = openvdb::tools::meshToLevelSet<FloatGrid>(*transform, points, quads, 3);
   expectPlainPath(grid);
   EXPECT_TRUE(GridSource(grid, {.hermite = HermiteMode::kDistance}).usesDistances());
