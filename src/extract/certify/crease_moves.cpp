@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "extract/certify/folded_blocks.h"
 #include "extract/certify/vertex_trial.h"
 #include "parallel/gather.h"
 #include "parallel/sort_unique.h"
@@ -30,18 +31,6 @@ constexpr std::size_t kMostConflicts = 12;
 /// Where a block has more conflicts, or vertices off their places, its faces are folded by noise: no single move helps,
 /// and trying them takes long.
 constexpr std::ptrdiff_t kMostInBlock = 64;
-
-/// \param blocks of offences. \returns those that have too many, sorted.
-std::vector<std::int32_t> foldedByNoise(std::vector<std::int32_t> blocks) {
-  std::sort(blocks.begin(), blocks.end());
-  std::vector<std::int32_t> folded;
-  for (auto begin = blocks.begin(); begin != blocks.end();) {
-    const auto end = std::find_if(begin, blocks.end(), [&](std::int32_t b) { return b != *begin; });
-    if (end - begin > kMostInBlock) folded.push_back(*begin);
-    begin = end;
-  }
-  return folded;
-}
 
 Vec3f scaledTo(const Vec3d& v, double wanted) {
   const double l = length(v);
@@ -148,7 +137,7 @@ struct Candidate {
 std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector<Conflict>& conflicts) {
   std::vector<std::int32_t> blocks;
   for (const Conflict& c : conflicts) blocks.push_back(c.edge0.block);
-  const std::vector<std::int32_t> folded = foldedByNoise(std::move(blocks));
+  const FoldedBlocks folded(std::move(blocks), kMostInBlock);
   std::vector<Candidate> candidates;
   for (std::size_t c = 0; c < conflicts.size(); ++c) {
     mesh.monitor().throwIfStopped();
@@ -156,7 +145,7 @@ std::vector<Candidate> findCandidates(const WorkingMesh& mesh, const std::vector
       const std::ptrdiff_t i = mesh.movable(corner);
       if (i < 0) return;
       const VertexState& v = mesh.vertices()[static_cast<std::size_t>(i)];
-      if (v.creaseMoves < kMostMoves && isSharp(v) && !std::binary_search(folded.begin(), folded.end(), v.block))
+      if (v.creaseMoves < kMostMoves && isSharp(v) && !folded.has(v.block))
         candidates.push_back({c, static_cast<std::size_t>(i)});
     });
   }
@@ -210,10 +199,10 @@ std::vector<VertexMove> findBetterPlaces(const WorkingMesh& mesh, NearFaces& nea
     if (mesh.vertices()[i].place != mesh.vertices()[i].wanted) displaced.push_back(i);
   std::vector<std::int32_t> blocks;
   for (const std::size_t i : displaced) blocks.push_back(mesh.vertices()[i].block);
-  const std::vector<std::int32_t> folded = foldedByNoise(std::move(blocks));
+  const FoldedBlocks folded(std::move(blocks), kMostInBlock);
   std::erase_if(displaced, [&](std::size_t i) {
     const VertexState& v = mesh.vertices()[i];
-    return !isSharp(v) || std::binary_search(folded.begin(), folded.end(), v.block);
+    return !isSharp(v) || folded.has(v.block);
   });
   const FaceBoxes& boxes = near.boxesAbout(mesh.vertices(), displaced);
   return gather<VertexMove>(displaced.size(), [&](std::size_t i, std::vector<VertexMove>& out) {

@@ -1,8 +1,10 @@
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "extract/certify/folded_blocks.h"
 #include "extract/certify/remedies.h"
 
 namespace pdc::detail {
@@ -13,22 +15,16 @@ namespace {
 constexpr std::ptrdiff_t kMostInBlock = 32;
 constexpr int kStepsInNoise = 3;
 
-/// The blocks with too many conflicts, sorted. \param conflicts sorted.
-std::vector<std::int32_t> foldedByNoise(const std::vector<Conflict>& conflicts) {
-  std::vector<std::int32_t> folded;
-  for (auto begin = conflicts.begin(); begin != conflicts.end();) {
-    const auto end =
-        std::find_if(begin, conflicts.end(), [&](const Conflict& c) { return c.edge0.block != begin->edge0.block; });
-    if (end - begin > kMostInBlock) folded.push_back(begin->edge0.block);
-    begin = end;
-  }
-  return folded;
+FoldedBlocks foldedBlocks(const std::vector<Conflict>& conflicts) {
+  std::vector<std::int32_t> blocks;
+  for (const Conflict& c : conflicts) blocks.push_back(c.edge0.block);
+  return {std::move(blocks), kMostInBlock};
 }
 
 }  // namespace
 
 std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<Conflict>& conflicts) {
-  const std::vector<std::int32_t> folded = foldedByNoise(conflicts);
+  const FoldedBlocks folded = foldedBlocks(conflicts);
   std::vector<std::uint8_t> isAtConflict(mesh.vertices().size(), 0);
   std::erase_if(conflicts, [&](const Conflict& c) {
     mesh.monitor().throwIfStopped();
@@ -45,7 +41,7 @@ std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<
     if (isAtConflict[i] != 0) vertices.push_back(i);
   tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
     const VertexState& v = mesh.vertices()[vertices[i]];
-    const bool inNoise = v.creaseNormals[0] == Vec3f{} && std::binary_search(folded.begin(), folded.end(), v.block);
+    const bool inNoise = v.creaseNormals[0] == Vec3f{} && folded.has(v.block);
     mesh.retract(vertices[i], inNoise ? kStepsInNoise : 1);
   });
   std::vector<EdgeRef> changed = mesh.quadsAt(vertices);
