@@ -38,9 +38,10 @@ std::string countText(double count) {
 }
 
 std::string bytesText(double bytes) {
-  constexpr double kKilo = 1e3, kMega = 1e6, kGiga = 1e9;
+  constexpr double kKilo = 1e3, kMega = 1e6, kGiga = 1e9, kTera = 1e12;
   if (bytes < kMega) return fmt::format("{:.0f} kB", bytes / kKilo);
-  return bytes < 10 * kGiga ? fmt::format("{:.0f} MB", bytes / kMega) : fmt::format("{:.0f} GB", bytes / kGiga);
+  if (bytes < 10 * kGiga) return fmt::format("{:.0f} MB", bytes / kMega);
+  return bytes < 10 * kTera ? fmt::format("{:.0f} GB", bytes / kGiga) : fmt::format("{:.0f} TB", bytes / kTera);
 }
 
 }  // namespace pdc::detail

@@ -16,7 +16,7 @@ void checkMemory(double bytes, double vertices, const ContourOptions& options);
 
 /// "512", "2.5 million", "25.7 billion".
 [[nodiscard]] std::string countText(double count);
-/// "5 kB", "120 MB", "16 GB".
+/// "5 kB", "120 MB", "16 GB", "198 TB".
 [[nodiscard]] std::string bytesText(double bytes);
 
 }  // namespace pdc::detail

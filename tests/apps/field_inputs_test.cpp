@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                     FieldInput{"formula_floor.yaml"}, FieldInput{"yaml_merge_key.yaml"},
                     FieldInput{"formula_nan_half.yaml", {}, "--nan outside"},
                     FieldInput{"scene_grid_with_nan.yaml", {}, "--nan outside"},
-                    FieldInput{"scene_resolution_1048576.yaml", {}, "MB"},
+                    FieldInput{"scene_resolution_1048576.yaml", {}, "TB"},
                     FieldInput{.name = "grid_sdf_no_class_background0.vdb", .volume = 4189},
                     FieldInput{.name = "grid_ls_positive_inside.vdb", .warning = "--inside high", .volume = 4189},
                     FieldInput{.name = "grid_ls_not_flood_filled.vdb", .warning = "--flood-fill", .components = 2},

@@ -14,6 +14,7 @@ TEST(ContourMemory, CountsAndBytesReadWell) {
   EXPECT_EQ(bytesText(5e3), "5 kB");
   EXPECT_EQ(bytesText(120e6), "120 MB");
   EXPECT_EQ(bytesText(16e9), "16 GB");
+  EXPECT_EQ(bytesText(197.6e12), "198 TB");
 }
 
 TEST(ContourMemory, EachExtraPartTakesMore) {
