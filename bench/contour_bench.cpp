@@ -66,7 +66,8 @@ FloatGrid::Ptr droplets(int count, int n) {
   FloatGrid::Ptr all = openvdb::createLevelSet<FloatGrid>(1.0F, 3.0F);
   for (int i = 0; i < count; ++i) {
     const openvdb::Vec3f center(place(random), place(random), place(random));
-    openvdb::tools::csgUnion(*all, *openvdb::tools::createLevelSetSphere<FloatGrid>(radius(random), center, 1.0F, 3.0F));
+    openvdb::tools::csgUnion(*all,
+                             *openvdb::tools::createLevelSetSphere<FloatGrid>(radius(random), center, 1.0F, 3.0F));
   }
   return all;
 }
@@ -193,8 +194,7 @@ void addAll(const Input& input) {
 }  // namespace
 
 /// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, --large for the sphere of radius 1000,
-/// and
-/// --rough for grids without a smooth surface.
+/// and --rough for grids without a smooth surface.
 int main(int argc, char** argv) {
   openvdb::initialize();
   benchmark::Initialize(&argc, argv);

@@ -8,17 +8,18 @@
 
 #include "pdc/extract/contour.h"
 #include "pdc/math/box.h"
+#include "sample/forwarding_source.h"
 
 namespace pdc::eval {
 namespace {
 
 constexpr int kHalo = 2;
 
-/// Those blocks of another source that lie in a box or not farther than the halo from it.
-class PartOfSource final : public HermiteSource {
+/// Another source without the blocks that lie farther than the halo from a box.
+class PartOfSource final : public detail::ForwardingSource {
  public:
   PartOfSource(const HermiteSource& source, const SurfaceBlocks& all, const BlockBox& box)
-      : mSource(source), mAll(all), mBox(box) {}
+      : ForwardingSource(source), mAll(all), mBox(box) {}
 
   [[nodiscard]] SurfaceBlocks surfaceBlocks(const Monitor&) const override {
     SurfaceBlocks part;
@@ -30,21 +31,8 @@ class PartOfSource final : public HermiteSource {
     }
     return part;
   }
-  [[nodiscard]] const LatticeMap& map() const override { return mSource.map(); }
-  [[nodiscard]] SourceKnowledge knowledge() const override { return mSource.knowledge(); }
-  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override {
-    mSource.fillHermite(block, hermite);
-  }
-  void fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const override {
-    mSource.fillNoise(block, hermite, noise);
-  }
-  void fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock& hermite, std::span<const SurfacePatch> patches,
-                         FeaturePlanes& planes) const override {
-    mSource.fillFeaturePlanes(block, hermite, patches, planes);
-  }
 
  private:
-  const HermiteSource& mSource;
   const SurfaceBlocks& mAll;
   BlockBox mBox;
 };

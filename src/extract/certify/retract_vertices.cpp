@@ -41,7 +41,7 @@ std::vector<EdgeRef> retractVertices(WorkingMesh& mesh, NearFaces&, std::vector<
     if (isAtConflict[i] != 0) vertices.push_back(i);
   tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
     const VertexState& v = mesh.vertices()[vertices[i]];
-    const bool inNoise = v.creaseNormals[0] == Vec3f{} && folded.has(v.block);
+    const bool inNoise = !v.onKnownCrease() && folded.has(v.block);
     mesh.retract(vertices[i], inNoise ? kStepsInNoise : 1);
   });
   std::vector<EdgeRef> changed = mesh.quadsAt(vertices);

@@ -16,7 +16,7 @@ constexpr auto kShareOnCrease = std::to_array<float>({1, 0.9F, 0.8F, 0.7F, 0.6F,
 constexpr auto kShare = std::to_array<float>({1, 0.9F, 0.75F, 0.5F, 0.25F, 0});
 
 std::span<const float> sharesOf(const VertexState& v) {
-  if (v.creaseNormals[0] != Vec3f{}) return kShareOnCrease;
+  if (v.onKnownCrease()) return kShareOnCrease;
   return kShare;
 }
 
@@ -34,7 +34,7 @@ WorkingMesh::WorkingMesh(const Surface& surface, const std::vector<SuspectVertex
       mMesh(mesh),
       mMonitor(monitor) {
   for (std::size_t i = 0; i < suspects.size(); ++i)
-    if (suspects[i].creaseNormals[0] != Vec3f{}) mOnCreases.push_back(i);
+    if (suspects[i].onKnownCrease()) mOnCreases.push_back(i);
 }
 
 bool WorkingMesh::fullyRetracted(const VertexState& v) { return v.retractions + std::size_t{1} >= sharesOf(v).size(); }

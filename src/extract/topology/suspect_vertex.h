@@ -23,6 +23,8 @@ struct SuspectVertex {
   /// Outward normals, in world space, of the planes that meet in a crease there; zero beyond the last, and where there
   /// is none.
   std::array<Vec3f, 4> creaseNormals{};
+
+  [[nodiscard]] bool onKnownCrease() const { return creaseNormals[0] != Vec3f{}; }
 };
 
 /// Finds suspect vertices by their numbers in the mesh.

@@ -11,7 +11,7 @@ namespace pdc::detail {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-/// Of single precision, relative to a coordinate: some units in the last place.
+/// How far single precision may put a coordinate off, as a share of it: some units in the last place.
 constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
 
 /// Half the normal times the area on both sides, by Newell's sum.
