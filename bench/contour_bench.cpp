@@ -193,7 +193,7 @@ void addAll(const Input& input) {
 
 }  // namespace
 
-/// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, --large for the sphere of radius 1000,
+/// Takes, beyond the arguments of Google Benchmark, .vdb files to contour too, --large for the sphere of radius 1600,
 /// and --rough for grids without a smooth surface.
 int main(int argc, char** argv) {
   openvdb::initialize();
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--large") {
-      addAll({"sphere_1000", [] { return sphere(1000); }});
+      addAll({"sphere_1600", [] { return sphere(1600); }});
     } else if (argument == "--rough") {
       for (const int n : {16, 48}) {
         addAll({"checkerboard_" + std::to_string(n), [n] { return checkerboard(n); }});

@@ -4,6 +4,7 @@
 
 #include "extract/vertices/block_sampler.h"
 #include "extract/vertices/cell_rounding.h"
+#include "extract/vertices/chord_lanes.h"
 #include "extract/vertices/crossing_planes.h"
 #include "extract/vertices/patch_lanes.h"
 #include "extract/vertices/patch_solver.h"
@@ -113,11 +114,10 @@ struct BlockVertexSolver::Scratch {
   void findResiduals(const BlockState& block, std::size_t first, int used) {
     constexpr auto kLeast = static_cast<float>(SigmaNormal::kLeastSpread);
     if (!(maxLanes(lanes.excess) > kLeast)) return;
-    for (int lane = 0; lane < used; ++lane) {
-      if (!(lanes.excess[lane] > kLeast)) continue;
-      patchSolver.load(first + lane, block.edges);
-      lanes.residual[lane] = static_cast<float>(chordResidual(patchSolver.samples(), block.metric));
-    }
+    chords.clear();
+    for (int lane = 0; lane < used; ++lane)
+      if (lanes.excess[lane] > kLeast) chords.load(lane, sampler.patches()[first + lane], block.edges, crossings);
+    chords.residuals(matrixCast(block.metric.G), lanes.residual);
   }
 
   /// Vertices of a block are neighbours in memory.
@@ -223,6 +223,7 @@ struct BlockVertexSolver::Scratch {
   PatchSolver patchSolver;
   PatchSums sums;
   PatchLanes lanes;
+  ChordLanes chords;
   /// The noise of one normal, in lattice units: σn² G; or zero, if crossings have their own, which are in their rows.
   SymMat3<float> Sigma_n;
 };

@@ -1,17 +1,12 @@
 #include "extract/vertices/patch_samples.h"
 
-#include "pdc/math/sym_mat3.h"
-
 namespace pdc::detail {
 
 double chordResidual(const PatchSamples& samples, const CellMetric& metric) {
   double sum = 0;
   for (int i = 0; i < samples.size; ++i)
-    for (int k = 0; k < i; ++k) {
-      const Vec3d chord = samples.position[i] - samples.position[k];
-      const double across = dot(samples.row[i] + samples.row[k], chord), squared = quadraticForm(metric.G, chord);
-      if (squared > 0) sum += 2 * across * across / squared;
-    }
+    for (int k = 0; k < i; ++k)
+      sum += 2 * chordDisagreement(samples.row[i], samples.row[k], samples.position[i] - samples.position[k], metric.G);
   return sum / (samples.size * samples.size);
 }
 

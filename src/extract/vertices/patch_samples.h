@@ -4,6 +4,7 @@
 #include <span>
 
 #include "extract/vertices/cell_metric.h"
+#include "pdc/math/sym_mat3.h"
 #include "pdc/math/vec3.h"
 #include "pdc/sample/feature_planes.h"
 #include "sample/cell_edges.h"
@@ -26,9 +27,16 @@ struct PatchSamples {
   double featureSigma = 0;  ///< σn of them.
 };
 
-/// How far the normals of a patch disagree with where its crossings lie: the mean over all pairs of crossings, each
-/// with itself too, of s² with s = (n₁ + n₂) · (p₂ − p₁) / |p₂ − p₁|. On a surface that bends evenly the mean of two
-/// normals is perpendicular to the chord, to third order; beside a crease or with noise it is not.
+/// How far the normals of two crossings disagree with the chord between them, s² with
+/// s = (n₁ + n₂) · (p₂ − p₁) / |p₂ − p₁|; 0 where they coincide. On a surface that bends evenly the mean of two normals
+/// is perpendicular to the chord, to third order; beside a crease or with noise it is not.
+template <typename T>
+[[nodiscard]] T chordDisagreement(const Vec3<T>& row1, const Vec3<T>& row2, const Vec3<T>& chord, const SymMat3<T>& G) {
+  const T across = dot(row1 + row2, chord), squared = quadraticForm(G, chord);
+  return squared > 0 ? across * across / squared : T(0);
+}
+
+/// The mean of chordDisagreement() over all pairs of crossings, each with itself too.
 [[nodiscard]] double chordResidual(const PatchSamples& samples, const CellMetric& metric);
 
 /// Mean squared distance of a place from the planes that place the vertex, in voxels squared; planes from distances
