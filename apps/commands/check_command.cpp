@@ -6,8 +6,8 @@
 #include <string>
 
 #include "commands/info_facts.h"
-#include "commands/json_report.h"
-#include "commands/mesh_file.h"
+#include "files/json_file.h"
+#include "files/mesh_file.h"
 #include "parallel/with_threads.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"

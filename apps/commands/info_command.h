@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 
 namespace pdc {
@@ -9,11 +10,14 @@ namespace pdc {
 struct InfoRequest {
   std::filesystem::path file, json;
   bool quiet = false;
+  std::filesystem::path reference;   ///< A mesh to compare with; empty for none.
+  std::int64_t samples = 1'000'000;  ///< On each of the two surfaces.
 };
 
 void addInfoOptions(CLI::App& command, InfoRequest& request);
 
-/// Prints what is in the file, as aligned text or, on request, as JSON. \throws Error.
+/// Prints what is in the file, and on request how far the mesh in it is from another, as aligned text or, on request,
+/// as JSON. \throws Error.
 void runInfo(const InfoRequest& request);
 
 }  // namespace pdc

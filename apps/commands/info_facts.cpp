@@ -59,15 +59,6 @@ Json sceneFacts(const std::filesystem::path& path) {
   return facts;
 }
 
-Json meshFileFacts(const std::filesystem::path& path) {
-  const MeshFile file = readMeshFile(path);
-  Json facts = meshFacts(file, analyze(file.mesh));
-  for (const VertexProperty& property : file.mesh.properties)
-    facts["properties"].push_back(
-        {{"name", property.name}, {"type", typeName(property)}, {"components", property.components}});
-  return facts;
-}
-
 Json factsByKind(const std::filesystem::path& path) {
   switch (inputKind(path)) {
     case InputKind::kGrid:
@@ -75,7 +66,7 @@ Json factsByKind(const std::filesystem::path& path) {
     case InputKind::kScene:
       return sceneFacts(path);
     default:
-      return meshFileFacts(path);
+      return meshFileFacts(readMeshFile(path));
   }
 }
 
@@ -103,6 +94,14 @@ Json meshFacts(const MeshFile& file, const MeshReport& report) {
              {"bounds_hi", toJson(report.bounds.hi)}};
   if (file.mesh.origin != Vec3d{0, 0, 0}) facts["origin"] = toJson(file.mesh.origin);
   facts["warnings"] = file.warnings;
+  return facts;
+}
+
+Json meshFileFacts(const MeshFile& file) {
+  Json facts = meshFacts(file, analyze(file.mesh));
+  for (const VertexProperty& property : file.mesh.properties)
+    facts["properties"].push_back(
+        {{"name", property.name}, {"type", typeName(property)}, {"components", property.components}});
   return facts;
 }
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands/mesh_file.h"
+#include "files/mesh_file.h"
 #include "pdc/mesh/mesh_report.h"
 
 namespace pdc {
@@ -12,6 +12,9 @@ namespace pdc {
 /// and the properties of its vertices.
 /// \throws Error for files that cannot be read.
 [[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
+
+/// The same of a mesh that has been read, without the file's name.
+[[nodiscard]] nlohmann::ordered_json meshFileFacts(const MeshFile& file);
 
 /// What the report on a mesh says, with its origin unless that is zero, and what the reader warned of.
 [[nodiscard]] nlohmann::ordered_json meshFacts(const MeshFile& file, const MeshReport& report);

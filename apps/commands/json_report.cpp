@@ -1,24 +1,14 @@
 #include "commands/json_report.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
-#include "io/file/atomic_file.h"
 #include "parallel/machine_memory.h"
 
 namespace pdc {
+namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json sigmaNormalJson(const std::optional<double>& sigma) {
-  if (!sigma) return "auto";
-  return std::isinf(*sigma) ? Json("inf") : Json(*sigma);
-}
-
-namespace {
 
 Json toJson(const std::optional<GridMeaning>& meaning) {
   if (!meaning) return {};
@@ -32,7 +22,12 @@ Json toJson(const std::optional<GridMeaning>& meaning) {
 
 }  // namespace
 
-Json toJson(const MeshRequest& request, const MeshRun& run) {
+nlohmann::ordered_json sigmaNormalJson(const std::optional<double>& sigma) {
+  if (!sigma) return "auto";
+  return std::isinf(*sigma) ? Json("inf") : Json(*sigma);
+}
+
+nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
   return {{"input", request.input.string()},
@@ -76,23 +71,6 @@ Json toJson(const MeshRequest& request, const MeshRun& run) {
             {"contour", run.secondsContour},
             {"write", run.secondsWrite},
             {"total", run.secondsTotal}}}};
-}
-
-void checkJsonPath(const std::filesystem::path& path) {
-  if (!path.empty() && path != "-") detail::checkWritable(path);
-}
-
-void writeJson(const Json& json, const std::filesystem::path& path) {
-  if (path.empty()) return;
-  // File names need not be UTF-8; JSON has to be.
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (path == "-") {
-    fmt::print("{}", text);
-    return;
-  }
-  detail::AtomicFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
 }
 
 }  // namespace pdc

@@ -33,12 +33,4 @@ struct MeshRun {
 
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run);
 
-/// \throws Error unless a report can be written to `path`. An empty path (no report) and "-" (standard output) always
-/// serve.
-void checkJsonPath(const std::filesystem::path& path);
-
-/// Writes to a file, which appears only when it is complete, or to standard output for "-"; does nothing for an empty
-/// path.
-void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path);
-
 }  // namespace pdc

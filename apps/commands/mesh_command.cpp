@@ -11,6 +11,7 @@
 
 #include "commands/json_report.h"
 #include "extract/contour_memory.h"
+#include "files/json_file.h"
 #include "io/file/suffix.h"
 #include "mesh/components.h"
 #include "parallel/stopwatch.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/json_file.h"
 #include "io/mesh/mesh_format.h"
 #include "pdc/error.h"
 #include "pdc/sample/implicit/field_source.h"
@@ -107,12 +108,6 @@ void checkNoiseGrid(const MeshRequest& request, const char* option, const std::o
 
 void refuseOther(bool given, const char* name, const char* takers) {
   if (given) throw CLI::ValidationError(name, fmt::format("goes with {} only", takers));
-}
-
-bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code ignored;
-  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal() ||
-         std::filesystem::equivalent(a, b, ignored);
 }
 
 }  // namespace
@@ -241,9 +236,7 @@ void checkMeshRequest(const MeshRequest& request) {
       request.doublePrecision && otherThanPly() && detail::meshFormat(request.output) != detail::MeshFormat::kObj,
       "--double", ".ply and .obj outputs");
   if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
-  if (request.json.empty()) return;
-  if (sameFile(request.json, request.input)) throw CLI::ValidationError("--json", "would replace INPUT");
-  if (sameFile(request.json, request.output)) throw CLI::ValidationError("--json", "would replace OUTPUT");
+  checkJsonReplaces(request.json, request.input, request.output);
 }
 
 }  // namespace pdc

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "commands/mesh_file.h"
 #include "commands/shading_values.h"
+#include "files/mesh_file.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/png_writer.h"
 #include "terminal/busy_sign.h"

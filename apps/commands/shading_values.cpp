@@ -7,7 +7,7 @@
 #include <limits>
 #include <variant>
 
-#include "commands/mesh_file.h"
+#include "files/mesh_file.h"
 #include "pdc/error.h"
 #include "pdc/mesh/distance.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "commands/mesh_file.h"
+#include "files/mesh_file.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/render/render.h"

@@ -43,6 +43,11 @@ void print(const Json& facts, const std::string& indent) {
       }
       continue;
     }
+    if (value.is_object()) {
+      fmt::print("{}{}\n", indent, factLabel(key));
+      print(value, indent + "  ");
+      continue;
+    }
     fmt::print("{}{:<{}}  {}\n", indent, factLabel(key), width, text(value));
   }
 }

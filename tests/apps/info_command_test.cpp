@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,6 +96,57 @@ TEST(InfoCommand, ReportsBadMeshesWithoutJudging) {
   const Json facts = infoOf(folder.write("fan.obj", fan));
   EXPECT_EQ(facts["non_manifold_edges"], 1);
   EXPECT_EQ(facts["boundary_edges"], 6);
+}
+
+std::string triangleAt(double z) { return fmt::format("v 0 0 {0}\nv 1 0 {0}\nv 0 1 {0}\nf 1 2 3\n", z); }
+
+TEST(InfoCommand, ComparesWithAReference) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("upper.obj", triangleAt(0.5)),
+                    reference = folder.write("lower.obj", triangleAt(0));
+  const Outcome outcome = runPdc({"info", file, "--reference", reference, "--samples", "100", "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const Json facts = Json::parse(outcome.out);
+  EXPECT_EQ(facts["file"], file);
+  EXPECT_EQ(facts["triangles"], 1);
+  const Json figures = {{"mean", 0.5}, {"rms", 0.5}, {"p99.9", 0.5}, {"largest", 0.5}, {"samples", 100}};
+  EXPECT_EQ(facts["reference"], (Json{{"file", reference},
+                                      {"to_reference", figures},
+                                      {"from_reference", figures},
+                                      {"normal_angle_degrees", {{"mean", 0.0}, {"rms", 0.0}}},
+                                      {"opposed_share", 0.0}}));
+  EXPECT_FALSE(infoOf(file).contains("reference"));
+  const std::string text = runPdc({"info", file, "--reference", reference}).out;
+  EXPECT_NE(text.find("\nreference\n  file                  " + reference + "\n  to reference\n    mean     0.5\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\n    samples  1000000\n"), std::string::npos) << text;
+}
+
+TEST(InfoCommand, WarningsOfTheReferenceAreShownAndReported) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mesh.obj", triangleAt(0)), reference = folder.write("text.stl", triangleAt(0));
+  const Outcome outcome = runPdc({"info", file, "--reference", reference, "--samples", "100", "--json", "-"});
+  const Json facts = Json::parse(outcome.out);
+  ASSERT_EQ(facts["warnings"].size(), 1U);
+  EXPECT_EQ(outcome.err, "pdc: warning: " + facts["warnings"][0].get<std::string>() + "\n");
+}
+
+TEST(InfoCommand, ComparesMeshesOnly) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("mesh.obj", triangleAt(0)), points = folder.write("points.obj", "v 0 0 0\n");
+  const auto refuse = [](const Arguments& arguments, const std::string& mention) {
+    expectOneLineRefusal(runPdc(arguments), 1, {mention});
+  };
+  refuse({"info", mesh, "--reference", bulletGrid()}, "is not the suffix of a mesh");
+  refuse({"info", bulletGrid(), "--reference", mesh}, "is not the suffix of a mesh");
+  refuse({"info", mesh, "--reference", folder / "none.ply"}, "none.ply: cannot be read");
+  refuse({"info", mesh, "--reference", points}, "the reference has no face");
+  refuse({"info", points, "--reference", mesh}, "the mesh has no face");
+  for (const char* samples : {"0", "-1", "1000000001"})
+    refuse({"info", mesh, "--reference", mesh, "--samples", samples}, std::string("--samples is ") + samples);
+  expectOneLineRefusal(runPdc({"info", mesh, "--samples", "10"}), 2, {"--reference"});
 }
 
 TEST(InfoCommand, SceneFacts) {

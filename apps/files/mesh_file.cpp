@@ -1,4 +1,4 @@
-#include "commands/mesh_file.h"
+#include "files/mesh_file.h"
 
 #include "pdc/io/mesh/mesh_reader.h"
 #include "terminal/warning.h"
