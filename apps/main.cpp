@@ -8,6 +8,7 @@
 #include <string>
 
 #include "commands/check_command.h"
+#include "commands/decimate_command.h"
 #include "commands/info_command.h"
 #include "commands/mesh_command.h"
 #include "commands/render_command.h"
@@ -49,6 +50,9 @@ int run(int argc, char** argv) {
   pdc::RenderRequest render;
   CLI::App* renderCommand = app.add_subcommand("render", "Draw a mesh into a .png file");
   pdc::addRenderOptions(*renderCommand, render);
+  pdc::DecimateRequest decimate;
+  CLI::App* decimateCommand = app.add_subcommand("decimate", "Write a mesh with fewer triangles");
+  pdc::addDecimateOptions(*decimateCommand, decimate);
   pdc::SweepRequest sweep;
   CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
   pdc::addSweepOptions(*sweepCommand, sweep);
@@ -63,6 +67,7 @@ int run(int argc, char** argv) {
   if (infoCommand->parsed()) pdc::runInfo(info);
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
   if (renderCommand->parsed()) pdc::runRender(render);
+  if (decimateCommand->parsed()) pdc::runDecimate(decimate);
   if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }

@@ -1,0 +1,216 @@
+#include "commands/decimate_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "files/json_file.h"
+#include "files/mesh_file.h"
+#include "parallel/stopwatch.h"
+#include "parallel/with_threads.h"
+#include "pdc/io/mesh/mesh_writer.h"
+#include "pdc/mesh/triangulate_polygons.h"
+#include "terminal/busy_sign.h"
+#include "terminal/choice_option.h"
+#include "terminal/interrupt.h"
+#include "terminal/numbers.h"
+#include "terminal/progress_bar.h"
+#include "terminal/warning.h"
+
+namespace pdc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Choices<QuadricKind> kQuadrics{{"plane", QuadricKind::kPlane},
+                                     {"triangle", QuadricKind::kTriangle},
+                                     {"probabilistic-plane", QuadricKind::kProbabilisticPlane},
+                                     {"probabilistic-triangle", QuadricKind::kProbabilisticTriangle},
+                                     {"point", QuadricKind::kPoint}};
+const Choices<CollapsePlacement> kPlacements{{"minimizer", CollapsePlacement::kMinimizer},
+                                             {"subset", CollapsePlacement::kSubset}};
+
+/// What one run did, as far as the library does not say it. Seconds are wall-clock time.
+struct DecimateRun {
+  DecimateReport report;
+  std::size_t bytesWritten = 0;
+  double secondsRead = 0, secondsDecimate = 0, secondsWrite = 0;
+  std::vector<std::string> warnings;
+};
+
+template <typename Value>
+std::string wordOf(const Choices<Value>& choices, Value value) {
+  for (const auto& [word, other] : choices)
+    if (other == value) return word;
+  return "";
+}
+
+/// A number, or `auto` for the mesh's own.
+void addFromMesh(CLI::App& command, const std::string& name, std::optional<double>& target, double most,
+                 const std::string& help) {
+  const auto take = [name, &target, most](const std::string& text) {
+    const std::vector<double> value = parseReals(text, ',');
+    const bool number = value.size() == 1 && value[0] >= 0 && value[0] <= most && std::isfinite(value[0]);
+    if (text != "auto" && !number)
+      throw CLI::ValidationError(
+          name, fmt::format("'{}' is not {}, or auto", text, most == 1 ? "a number from 0 to 1" : "a number >= 0"));
+    target = number ? std::optional(value[0]) : std::nullopt;
+  };
+  command.add_option_function<std::string>(name, take, help)->type_name("S|auto")->group("Quadrics");
+}
+
+Json toJson(const DecimateRequest& request, const DecimateRun& run) {
+  const DecimateReport& r = run.report;
+  return {{"input", request.input.string()},
+          {"output", request.output.string()},
+          {"quadric", wordOf(kQuadrics, request.options.quadric)},
+          {"placement", wordOf(kPlacements, request.options.placement)},
+          {"faces_before", r.facesBefore},
+          {"faces", r.facesAfter},
+          {"vertices_before", r.verticesBefore},
+          {"vertices", r.verticesAfter},
+          {"end", r.end == DecimateEnd::kReached ? "reached" : "no_collapse_left"},
+          {"mean_edge", r.meanEdge},
+          {"noise", r.noise},
+          {"sigma_n", r.sigmaNormal},
+          {"sigma_p", r.sigmaPosition},
+          {"memory", r.memory},
+          {"rounds", r.rounds},
+          {"collapses", r.collapses},
+          {"limited_moves", r.limitedMoves},
+          {"degenerate_faces", r.degenerateFaces},
+          {"non_manifold_vertices", r.nonManifoldVertices},
+          {"bytes", run.bytesWritten},
+          {"seconds", {{"read", run.secondsRead}, {"decimate", run.secondsDecimate}, {"write", run.secondsWrite}}},
+          {"warnings", run.warnings}};
+}
+
+void printSummary(const DecimateRequest& request, const DecimateRun& run) {
+  const DecimateReport& r = run.report;
+  fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", request.output.string(), r.facesAfter, r.facesBefore,
+             r.verticesAfter, run.bytesWritten);
+  fmt::print("noise {:.2g} mean edges; sigma_n {:.2g}, memory {:.2g}\n", r.noise, r.sigmaNormal, r.memory);
+  fmt::print("{:.2f} s: reading {:.2f}, decimating {:.2f}, writing {:.2f}\n",
+             run.secondsRead + run.secondsDecimate + run.secondsWrite, run.secondsRead, run.secondsDecimate,
+             run.secondsWrite);
+}
+
+/// What the user should know of, one line each.
+std::vector<std::string> warningsOf(const DecimateReport& r) {
+  std::vector<std::string> warnings;
+  if (r.end == DecimateEnd::kNoCollapseLeft)
+    warnings.push_back(
+        fmt::format("{} triangles are left: each further collapse would change the topology, turn a face "
+                    "too far (--max-turn) or move a locked vertex",
+                    r.facesAfter));
+  if (r.nonManifoldVertices > 0)
+    warnings.push_back(
+        fmt::format("the surface is no manifold at {} vertices, which stay as they are", r.nonManifoldVertices));
+  if (r.degenerateFaces > 0)
+    warnings.push_back(
+        fmt::format("{} triangles name a vertex twice or are not finite and are left out", r.degenerateFaces));
+  return warnings;
+}
+
+void checkRequest(const DecimateRequest& request) {
+  if (!request.faces && !request.options.ratio) throw CLI::ValidationError("--faces", "or --ratio is required");
+  checkMeshPath(request.output);
+  checkJsonPath(request.json);
+  checkJsonReplaces(request.json, request.input, request.output);
+}
+
+}  // namespace
+
+void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
+  DecimateOptions& options = request.options;
+  command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  const auto target = "Target, the larger if both are given";
+  addInteger(command, "--faces", request.faces, 0, std::numeric_limits<int>::max(), "Triangles at most")
+      ->type_name("N")
+      ->group(target);
+  addReal(
+      command, "--ratio", options.ratio, [](double v) { return v > 0 && v <= 1; }, "a number above 0 and at most 1",
+      "Triangles at most, as a share of those given")
+      ->type_name("R")
+      ->group(target);
+  const auto quadrics = "Quadrics";
+  addChoice(command, "--quadric", options.quadric, kQuadrics,
+            "What errors are measured by (probabilistic-plane):\nclassical, or with noise")
+      ->type_name("KIND")
+      ->group(quadrics);
+  addFromMesh(command, "--sigma-n", options.sigmaNormal, std::numeric_limits<double>::max(),
+              "Noise of the unit normals (auto: from the mesh's own)");
+  addFromMesh(command, "--sigma-p", options.sigmaPosition, std::numeric_limits<double>::max(),
+              "Noise of the vertices, in mean edge lengths (auto)");
+  addFromMesh(command, "--memory", options.memory, 1,
+              "Share of the faces given in the quadrics, the rest being that\nof the faces left (auto: 0 where there "
+              "is no noise)");
+  addChoice(command, "--placement", options.placement, kPlacements,
+            "Where vertices go (minimizer): to the least error, or to\none of the edge's ends")
+      ->type_name("WHERE")
+      ->group(quadrics);
+  addReal(
+      command, "--max-turn", request.maxTurn, [](double v) { return v > 0 && v <= 90; },
+      "degrees above 0 and at most 90", "No face turns farther in one step, in degrees (75)")
+      ->type_name("DEG")
+      ->group(quadrics);
+  addReal(
+      command, "--boundary-weight", request.boundaryWeight, [](double v) { return v >= 0 && std::isfinite(v); },
+      "a finite number >= 0", "How much boundaries resist, relative to faces (10)")
+      ->type_name("W")
+      ->group(quadrics);
+  command.add_flag("--lock-boundary", options.lockBoundary, "Vertices at boundaries stay")->group(quadrics);
+  const auto output = "Output";
+  command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(output);
+  command.add_option("--json", request.json, "Report for programs; - is standard output")
+      ->type_name("FILE")
+      ->group(output);
+  command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(output);
+  addThreads(command, request.threads)->group(output);
+  command.footer("Example: pdc decimate scan.ply small.ply --ratio 0.05");
+}
+
+void runDecimate(const DecimateRequest& request) {
+  checkRequest(request);
+  DecimateRun run;
+  detail::Stopwatch stopwatch;
+  Mesh mesh;
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
+    MeshFile file = readMeshFile(request.input, request.quiet);
+    run.warnings = std::move(file.warnings);
+    mesh = std::move(file.mesh);
+    triangulatePolygons(mesh);
+  }
+  run.secondsRead = stopwatch.lap();
+
+  DecimateOptions options = request.options;
+  if (request.faces) options.faces = static_cast<std::size_t>(*request.faces);
+  options.maxTurn = request.maxTurn.value_or(options.maxTurn);
+  options.boundaryWeight = request.boundaryWeight.value_or(options.boundaryWeight);
+  {
+    ProgressBar bar(!request.quiet);
+    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+    mesh = detail::withThreads(request.threads.value_or(0), [&] {
+      return decimate(mesh, options, &run.report, {.progress = show, .stop = &interruptFlag()});
+    });
+  }
+  run.secondsDecimate = stopwatch.lap();
+  for (const std::string& warning : warningsOf(run.report)) {
+    run.warnings.push_back(warning);
+    if (!request.quiet) printWarning(warning);
+  }
+  {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
+    run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
+  }
+  run.secondsWrite = stopwatch.lap();
+  writeJson(toJson(request, run), request.json);
+  if (!request.quiet && request.json != "-") printSummary(request, run);
+}
+
+}  // namespace pdc

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "pdc/mesh/mesh.h"
+#include "pdc/monitor.h"
+
+namespace pdc {
+
+/// What the error of a vertex is measured by (Trettner & Kobbelt 2020, section 3). All are summed over the faces at a
+/// vertex and, but for the triangle quadrics, weighed by area.
+enum class QuadricKind {
+  kPlane,                  ///< Squared distance to the planes of the faces (Garland & Heckbert 1997).
+  kTriangle,               ///< The same, weighed by the square of the area.
+  kProbabilisticPlane,     ///< Its expectation where normals have noise, and points if that is known.
+  kProbabilisticTriangle,  ///< Its expectation where corners have noise.
+  kPoint,                  ///< Squared distance to the vertices: what is left of a plane where noise is all there is.
+};
+
+/// Where an edge's vertex goes.
+enum class CollapsePlacement {
+  kMinimizer,  ///< Where the quadrics of both ends have their minimum.
+  kSubset,     ///< To that end where they are less, so that the vertices are a subset of those given.
+};
+
+struct DecimateOptions {
+  /// How many triangles there are to be at most; and as a share, in (0, 1], of those given. The larger one counts if
+  /// both are set, and one must be.
+  std::optional<std::size_t> faces{};
+  std::optional<double> ratio{};
+  QuadricKind quadric = QuadricKind::kProbabilisticPlane;
+  CollapsePlacement placement = CollapsePlacement::kMinimizer;
+  /// Standard deviation of each component of the unit normals, 0 or more; from the mesh's own noise if not set.
+  std::optional<double> sigmaNormal{};
+  /// Standard deviation of each coordinate of the corners, 0 or more, in mean edge lengths of the mesh; likewise.
+  std::optional<double> sigmaPosition{};
+  /// The share, 0 to 1, that the faces given have in the quadrics, the rest being that of the faces there are: 1 is
+  /// what Garland & Heckbert and Trettner & Kobbelt do, 0 is simplification without memory (Lindstrom & Turk 1998,
+  /// Hoppe 1999), which lies closer to clean surfaces; noise asks for more. From the mesh's own noise if not set.
+  std::optional<double> memory{};
+  /// No face turns by more than this, in degrees, in (0, 90], when one of its edges is collapsed.
+  double maxTurn = 75;
+  /// How much boundary edges resist being left, 0 or more, relative to faces of their size.
+  double boundaryWeight = 10;
+  bool lockBoundary = false;  ///< Vertices at the boundary stay where they are.
+};
+
+/// Why decimation ended.
+enum class DecimateEnd {
+  kReached,         ///< There are no more faces than asked for.
+  kNoCollapseLeft,  ///< Each further collapse would change the topology, turn a face too far or move what is locked.
+};
+
+struct DecimateReport {
+  std::size_t facesBefore = 0, facesAfter = 0;  ///< Triangles; before: a quad counts as two.
+  std::size_t verticesBefore = 0, verticesAfter = 0;
+  DecimateEnd end = DecimateEnd::kReached;
+  double meanEdge = 0;     ///< Mean length of the edges given, in world units.
+  double noise = 0;        ///< What the vertices given seem to have, in mean edge lengths: see meshNoise().
+  double sigmaNormal = 0;  ///< As used.
+  double sigmaPosition = 0;
+  double memory = 0;
+  std::size_t rounds = 0, collapses = 0;
+  std::size_t limitedMoves = 0;         ///< Collapses whose minimum was too far away to go there.
+  std::size_t degenerateFaces = 0;      ///< Faces given that name a vertex twice or have no finite corners: dropped.
+  std::size_t nonManifoldVertices = 0;  ///< Vertices given about which the surface is none: they stay as they are.
+};
+
+/// Replaces a mesh by one of fewer triangles that lies as close to it as it can, by collapsing edges (Garland &
+/// Heckbert 1997) into vertices at the minimum of their quadrics, drawn towards where they keep the enclosed volume
+/// (Lindstrom & Turk 1998).
+///
+/// Edges are collapsed in rounds: of all edges those of least error that do not touch each other, so that rounds run in
+/// parallel and the result does not depend on the number of threads. Where the surface is a manifold it stays one, of
+/// the same topology, without degenerate and without duplicate faces; elsewhere it stays as it is. The result does not
+/// depend on the unit of length, nor, to rounding, on where the mesh lies. Nothing keeps far parts from intersecting.
+///
+/// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
+/// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.
+/// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh with a face that names a
+/// vertex that does not exist; Cancelled. Progress: "decimate". Memory: some 150 bytes per triangle besides the meshes.
+[[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
+                            const Monitor& monitor = {});
+
+/// The standard deviation of the noise that the vertices of a triangle mesh seem to have, in mean edge lengths: from by
+/// how much the surface bends otherwise at an edge than at the edges it meets, of which two must be like it. Neither
+/// creases nor curvature count as noise, where there are several edges to a bend; coarse meshes of curved surfaces are
+/// taken for noisy ones. It is found to some 20 %, up to 0.3; more counts as less than it is.
+[[nodiscard]] double meshNoise(const Mesh& mesh);
+
+}  // namespace pdc

@@ -1,0 +1,193 @@
+#include "pdc/simplify/decimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "mesh/faces.h"
+#include "mesh/mesh_checks.h"
+#include "pdc/math/box.h"
+#include "simplify/decimation/decimation.h"
+
+namespace pdc {
+namespace {
+
+/// σn where a mesh has no noise: keeps vertices of flat parts apart. With ten times as much the faces of solids come
+/// out twice as far from them, with a tenth half as regular.
+constexpr double kLeastSigma = 1e-4;
+
+/// Where noise is well below this, in mean edge lengths, it is what sampling does to clean surfaces: 0.02 to 0.04 on
+/// contoured scans.
+constexpr double kLeastNoise = 0.08;
+
+/// What noise of vertices does to the normals of their faces, in each component.
+constexpr double kNormalNoise = 2;
+
+/// The noise of normals at which the faces given have half of the say, and the share below which they have none, which
+/// is faster.
+constexpr double kHalfMemory = 0.5, kLeastMemory = 0.02;
+
+void check(const DecimateOptions& o) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(fmt::format("decimate: {}", what));
+  };
+  require(o.faces || o.ratio, "neither a number of faces nor a ratio is set");
+  require(!o.ratio || (*o.ratio > 0 && *o.ratio <= 1), "the ratio is not above 0 and at most 1");
+  require(!o.sigmaNormal || (*o.sigmaNormal >= 0 && std::isfinite(*o.sigmaNormal)), "sigma_n is not 0 or more");
+  require(!o.sigmaPosition || (*o.sigmaPosition >= 0 && std::isfinite(*o.sigmaPosition)), "sigma_p is not 0 or more");
+  require(!o.memory || (*o.memory >= 0 && *o.memory <= 1), "the memory is not within 0 and 1");
+  require(o.maxTurn > 0 && o.maxTurn <= 90, "the largest turn is not above 0 and at most 90 degrees");
+  require(o.boundaryWeight >= 0 && std::isfinite(o.boundaryWeight), "the boundary's weight is not 0 or more");
+}
+
+/// The triangles of a mesh that name three vertices, all finite.
+Buffer<Triangle> usableTriangles(const Mesh& mesh) {
+  Buffer<Triangle> faces;
+  faces.reserve(detail::triangleCount(mesh));
+  for (std::size_t i = 0; i < detail::triangleCount(mesh); ++i) {
+    const Triangle t = detail::triangle(mesh, i);
+    const bool finite =
+        std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return detail::isFinite(mesh.positions[v]); });
+    if (finite && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) faces.push_back(t);
+  }
+  return faces;
+}
+
+/// Maps a mesh to the unit that decimation has, and back.
+struct LocalFrame {
+  Vec3d center{};
+  double unit = 1;
+
+  LocalFrame(const Mesh& mesh, const Buffer<Triangle>& faces) {
+    double sum = 0;
+    Vec3d low{}, high{};
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3d p = vecCast<double>(mesh.positions[faces[i][k]]);
+        sum += length(p - vecCast<double>(mesh.positions[faces[i][(k + 1) % 3]]));
+        for (int axis = 0; axis < 3; ++axis) {
+          low[axis] = i + k == 0 ? p[axis] : std::min(low[axis], p[axis]);
+          high[axis] = i + k == 0 ? p[axis] : std::max(high[axis], p[axis]);
+        }
+      }
+    center = (low + high) * 0.5;
+    if (sum > 0) unit = sum / (3 * static_cast<double>(faces.size()));
+  }
+
+  [[nodiscard]] Vec3d local(const Vec3f& p) const { return (vecCast<double>(p) - center) * (1 / unit); }
+  [[nodiscard]] Vec3f world(const Vec3d& p) const { return vecCast<float>(p * unit + center); }
+};
+
+/// Vertices about which the surface is none stay, and at its boundary if so wanted. \returns how many of the former.
+std::size_t lockVertices(detail::DecimatedSurface& surface, bool boundary) {
+  detail::VertexStars stars;
+  stars.build(surface.faces, surface.positions.size());
+  std::size_t nonManifold = 0;
+  for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+    const bool manifold = detail::isManifoldStar(stars[v]);
+    nonManifold += !manifold;
+    surface.locked[v] = !manifold || (boundary && detail::atBoundary(stars[v]));
+  }
+  return nonManifold;
+}
+
+/// The choices that the mesh's noise makes.
+void chooseNoise(const Mesh& mesh, const DecimateOptions& options, DecimateReport& report) {
+  const double noise = report.noise = meshNoise(mesh);
+  // Small ones fade away.
+  const double normal = kNormalNoise * noise * noise * noise / (noise * noise + kLeastNoise * kLeastNoise);
+  report.sigmaNormal = options.sigmaNormal.value_or(std::max(kLeastSigma, normal));
+  report.sigmaPosition = options.sigmaPosition.value_or(std::max(kLeastSigma, normal / kNormalNoise));
+  const double memory = normal / (normal + kHalfMemory);
+  report.memory = options.memory.value_or(memory < kLeastMemory ? 0 : memory);
+}
+
+Buffer<Vec3f> vertexNormals(const Mesh& mesh) {
+  std::vector<Vec3d> sums(mesh.positions.size(), Vec3d{});
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3d p = vecCast<double>(mesh.positions[t[0]]);
+    const Vec3d n = cross(vecCast<double>(mesh.positions[t[1]]) - p, vecCast<double>(mesh.positions[t[2]]) - p);
+    for (const std::uint32_t v : t) sums[v] += n;
+  }
+  Buffer<Vec3f> normals(sums.size());
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const double l = length(sums[v]);
+    normals[v] = vecCast<float>(l > 0 ? sums[v] * (1 / l) : Vec3d{});
+  }
+  return normals;
+}
+
+/// The mesh of what is left, its vertices in the order they had.
+Mesh meshOf(const detail::DecimatedSurface& surface, const LocalFrame& frame,
+            const detail::InterpolatedProperties& properties, const Mesh& given) {
+  constexpr auto kUnused = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> number(surface.positions.size(), kUnused), used;
+  for (const Triangle& t : surface.faces)
+    for (const std::uint32_t v : t) number[v] = 0;
+  Mesh mesh;
+  mesh.origin = given.origin;
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kUnused) continue;
+    number[v] = static_cast<std::uint32_t>(used.size());
+    used.push_back(v);
+    mesh.positions.push_back(frame.world(surface.positions[v]));
+  }
+  for (const Triangle& t : surface.faces) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  mesh.properties = properties.of(used);
+  if (!given.normals.empty()) mesh.normals = vertexNormals(mesh);
+  return mesh;
+}
+
+std::size_t targetOf(const DecimateOptions& options, std::size_t faces) {
+  const std::size_t asShare =
+      options.ratio ? static_cast<std::size_t>(*options.ratio * static_cast<double>(faces)) : std::size_t{0};
+  return std::max(asShare, options.faces.value_or(0));
+}
+
+}  // namespace
+
+Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report, const Monitor& monitor) {
+  check(options);
+  detail::checkSizes(mesh, "decimate");
+  detail::checkIndices(mesh);
+  DecimateReport own;
+  DecimateReport& facts = report != nullptr ? *report : own;
+  facts = {};
+  facts.facesBefore = detail::triangleCount(mesh);
+  facts.verticesBefore = mesh.positions.size();
+  monitor.throwIfStopped();
+
+  detail::DecimatedSurface surface;
+  surface.faces = usableTriangles(mesh);
+  facts.degenerateFaces = facts.facesBefore - surface.faces.size();
+  const LocalFrame frame(mesh, surface.faces);
+  facts.meanEdge = frame.unit;
+  surface.positions.reserve(mesh.positions.size());
+  for (const Vec3f& p : mesh.positions) surface.positions.push_back(frame.local(p));
+  surface.locked.assign(surface.positions.size(), 0);
+  facts.nonManifoldVertices = lockVertices(surface, options.lockBoundary);
+  chooseNoise(mesh, options, facts);
+
+  detail::InterpolatedProperties properties(mesh);
+  const detail::DecimationRule rule{targetOf(options, facts.facesBefore),
+                                    {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
+                                    facts.memory,
+                                    options.placement == CollapsePlacement::kSubset,
+                                    std::cos(options.maxTurn * std::numbers::pi / 180)};
+  detail::Decimation decimation(surface, properties, rule);
+  decimation.run(monitor);
+
+  Mesh result = meshOf(surface, frame, properties, mesh);
+  facts.facesAfter = result.triangles.size();
+  facts.verticesAfter = result.positions.size();
+  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached : DecimateEnd::kNoCollapseLeft;
+  facts.rounds = decimation.rounds();
+  facts.collapses = decimation.collapses();
+  facts.limitedMoves = decimation.limitedMoves();
+  return result;
+}
+
+}  // namespace pdc

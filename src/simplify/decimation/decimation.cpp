@@ -1,0 +1,258 @@
+#include "simplify/decimation/decimation.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/lane_loops.h"
+#include "simplify/decimation/collapse_checks.h"
+#include "simplify/decimation/edge_lanes.h"
+
+namespace pdc::detail {
+namespace {
+
+/// The number of edges looked at in a round, those of least cost, as a share of the vertices. With a fifth means of
+/// distances are at most one percent less and decimation takes a third longer.
+constexpr double kShareOfRound = 0.4;
+/// At least so many are looked at. More of a small mesh would let edges that cost much go before others that are beside
+/// a collapse.
+constexpr std::size_t kLeastOfRound = 2;
+
+/// Costs at or below this, in mean edge lengths to the fourth power, are rounding.
+constexpr float kNoCost = 1e-14F;
+
+/// So many edges are looked at at a time to see which may be collapsed.
+constexpr std::size_t kBlock = 2048;
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+template <typename Visit>
+void forEachInParallel(std::size_t n, std::size_t grain, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& r) {
+    for (std::size_t i = r.begin(); i < r.end(); ++i) visit(i);
+  });
+}
+
+std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
+  std::uint64_t h = (std::uint64_t{a} << 32 | b) * 0x9E3779B97F4A7C15u;  // Steele, Lea & Flood 2014, SplitMix.
+  h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
+  return static_cast<std::uint32_t>(h >> 32);
+}
+
+}  // namespace
+
+Decimation::Decimation(DecimatedSurface& surface, InterpolatedProperties& properties, const DecimationRule& rule)
+    : mSurface(surface),
+      mProperties(properties),
+      mRule(rule),
+      mTouched(surface.positions.size(), 0),
+      mCollapse(surface.positions, mQuadrics, surface.locked) {
+  mCollapse.classical = rule.quadrics.classical();
+  mCollapse.subset = rule.subset;
+}
+
+void Decimation::run(const Monitor& monitor) {
+  const std::size_t before = mSurface.faces.size(), wanted = before - std::min(before, mRule.targetFaces);
+  std::size_t least = kLeastOfRound;
+  while (mSurface.faces.size() > mRule.targetFaces) {
+    monitor.throwIfStopped();
+    ++mRounds;
+    look();
+    findCosts();
+    const std::size_t left = (mSurface.faces.size() - mRule.targetFaces + 1) / 2;
+    const auto share = static_cast<std::size_t>(kShareOfRound * 0.5 * static_cast<double>(mSurface.faces.size()));
+    const std::vector<Candidate> candidates = cheapest(std::max(least, std::min(share, 2 * left)));
+    const std::vector<Chosen> chosen = choose(candidates);
+    apply(chosen);
+    // Where nothing cheap may be collapsed, more is looked at.
+    if (chosen.empty() && candidates.size() < least) return;
+    least = chosen.empty() ? 4 * std::max(least, candidates.size()) : kLeastOfRound;
+    if (monitor.progress)
+      monitor.progress("decimate", static_cast<double>(before - mSurface.faces.size()) / static_cast<double>(wanted));
+  }
+}
+
+/// Finds what the faces say of each vertex.
+void Decimation::look() {
+  const std::vector<Vec3d>& p = mSurface.positions;
+  mStars.build(mSurface.faces, p.size());
+  mAreas.resize(mSurface.faces.size());
+  forEachInParallel(mSurface.faces.size(), 4096, [&](std::size_t f) {
+    const Triangle& t = mSurface.faces[f];
+    mAreas[f] = FaceArea(p[t[0]], p[t[1]], p[t[2]]);
+  });
+  mQuadrics.resize(p.size());
+  forEachInParallel(p.size(), 1024, [&](std::size_t v) {
+    const auto vertex = static_cast<std::uint32_t>(v);
+    if (!mStars[vertex].empty()) mQuadrics[v] = vertexQuadric(vertex, mStars[vertex], p, mAreas, mRule.quadrics);
+  });
+  if (mRule.memory > 0) remember();
+}
+
+/// Mixes what the faces there are say with what those given said.
+void Decimation::remember() {
+  const std::size_t size = mQuadrics.size();
+  if (mAccumulated.empty()) {
+    mAccumulated.resize(size);
+    for (std::size_t v = 0; v < size; ++v) mAccumulated[v] = mQuadrics[v].q;
+  }
+  forEachInParallel(size, 1024, [&](std::size_t v) {
+    mQuadrics[v].q = mQuadrics[v].q * (1 - mRule.memory) + mAccumulated[v] * mRule.memory;
+  });
+}
+
+EdgeCollapse Decimation::collapseOf(std::uint32_t a, std::uint32_t b) const {
+  Vec3d between{};
+  for (const StarCorner& c : mStars[a])
+    if (c.next == b || c.previous == b) between += mAreas[c.face].vector;
+  return mCollapse.collapse(a, b, between);
+}
+
+/// Finds what it costs to collapse the edges of some vertices.
+inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end) {
+  EdgeLanes lanes;
+  alignas(64) double costs[kLanes];
+  const auto solve = [&] {
+    const int size = lanes.solve(costs);
+    for (int i = 0; i < size; ++i)
+      mCosts[lanes.tag(i)] = costs[i] < 0 ? costAlone(lanes.tag(i)) : std::max(kNoCost, static_cast<float>(costs[i]));
+  };
+  for (std::uint32_t a = begin; a < end; ++a) {
+    const std::span<const StarCorner> star = mStars[a];
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      const auto corner = static_cast<std::uint32_t>(mStars.first(a) + k);
+      const std::uint32_t b = star[k].next;
+      const StarCorner* const twin = cornerAfter(star, b);
+      mCosts[corner] = kNever;
+      // The edge is its lower end's, unless it runs towards that only.
+      if (b < a && twin != nullptr) continue;
+      if (mSurface.locked[a] != 0 && mSurface.locked[b] != 0) continue;
+      if (!mCollapse.inLanes(a, b)) {
+        mCosts[corner] = costAlone(corner);
+        continue;
+      }
+      Vec3d between = mAreas[star[k].face].vector;
+      if (twin != nullptr) between += mAreas[twin->face].vector;
+      lanes.add(mCollapse, a, b, between, corner);
+      if (lanes.full()) solve();
+    }
+  }
+  solve();
+}
+
+/// What it costs to collapse the edge that leaves at a corner, without lanes.
+float Decimation::costAlone(std::uint32_t corner) const {
+  const auto [a, b] = edgeAt(corner);
+  return std::max(kNoCost, static_cast<float>(collapseOf(a, b).cost));
+}
+
+/// The ends of the edge that leaves at a corner, the lower first.
+std::array<std::uint32_t, 2> Decimation::edgeAt(std::uint32_t corner) const {
+  const auto [face, next, previous] = mStars.corner(corner);
+  const Triangle& t = mSurface.faces[face];
+  const std::uint32_t own = t[0] ^ t[1] ^ t[2] ^ next ^ previous;
+  return {std::min(own, next), std::max(own, next)};
+}
+
+void Decimation::findCosts() {
+  mCosts.resize(mStars.cornerCount());
+  const tbb::blocked_range<std::uint32_t> all(0, static_cast<std::uint32_t>(mSurface.positions.size()), 512);
+  tbb::parallel_for(all, [&](const auto& r) { withSimd(bestSimdLevel(), [&] { findCostsOf(r.begin(), r.end()); }); });
+}
+
+/// A cost that about `count` edges have at most.
+float Decimation::costOfCheapest(std::size_t count) const {
+  // A few thousand of them, evenly spread, tell well enough.
+  const std::size_t step = std::max<std::size_t>(1, mCosts.size() / 16384);
+  std::vector<float> sample;
+  for (std::size_t i = 0; i < mCosts.size(); i += step)
+    if (mCosts[i] < kNever) sample.push_back(mCosts[i]);
+  if (count / step >= sample.size()) return kNever;
+  const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(count / step);
+  std::nth_element(sample.begin(), nth, sample.end());
+  return *nth;
+}
+
+/// About so many of those of least cost, in order.
+std::vector<Decimation::Candidate> Decimation::cheapest(std::size_t count) {
+  const float most = costOfCheapest(count);
+  std::vector<Candidate> candidates;
+  for (std::uint32_t i = 0; i < mCosts.size(); ++i) {
+    if (!(mCosts[i] <= most) || mCosts[i] == kNever) continue;
+    const auto [a, b] = edgeAt(i);
+    candidates.push_back({mCosts[i], hashOf(a, b), a, b});
+  }
+  tbb::parallel_sort(candidates.begin(), candidates.end());
+  // Of equal costs there may be any number.
+  if (candidates.size() > 2 * count) candidates.resize(2 * count);
+  return candidates;
+}
+
+std::size_t Decimation::facesAt(std::uint32_t a, std::uint32_t b) const {
+  std::size_t count = 0;
+  for (const StarCorner& c : mStars[a]) count += c.next == b || c.previous == b;
+  return count;
+}
+
+/// Those that may be collapsed and touch none that is cheaper.
+std::vector<Decimation::Chosen> Decimation::choose(const std::vector<Candidate>& candidates) {
+  const CollapseChecks checks(mStars, mSurface.positions, mAreas, mRule.leastCosine);
+  const auto round = static_cast<std::uint32_t>(mRounds);
+  const auto touched = [&](const Candidate& c) { return mTouched[c.a] == round || mTouched[c.b] == round; };
+  std::vector<Chosen> chosen;
+  std::vector<std::optional<EdgeCollapse>> to(kBlock);
+  std::size_t faces = mSurface.faces.size();
+  // Block by block, since most of the later ones are touched by earlier ones.
+  for (std::size_t first = 0; first < candidates.size() && faces > mRule.targetFaces; first += kBlock) {
+    const std::size_t size = std::min(kBlock, candidates.size() - first);
+    forEachInParallel(size, 64, [&](std::size_t i) {
+      const Candidate& c = candidates[first + i];
+      to[i].reset();
+      if (touched(c) || !checks.keepsTopology(c.a, c.b)) return;
+      const EdgeCollapse collapse = collapseOf(c.a, c.b);
+      if (checks.keepsFaces(c.a, c.b, collapse.place)) to[i] = collapse;
+    });
+    for (std::size_t i = 0; i < size && faces > mRule.targetFaces; ++i) {
+      const Candidate& c = candidates[first + i];
+      if (!to[i] || touched(c)) continue;
+      for (const std::uint32_t v : {c.a, c.b}) {
+        mTouched[v] = round;
+        for (const StarCorner& k : mStars[v]) mTouched[k.next] = mTouched[k.previous] = round;
+      }
+      faces -= facesAt(c.a, c.b);
+      chosen.push_back({c.a, c.b, *to[i]});
+    }
+  }
+  return chosen;
+}
+
+/// Their stars have no face in common, so that they do not see each other.
+void Decimation::apply(const std::vector<Chosen>& chosen) {
+  std::vector<Vec3d>& p = mSurface.positions;
+  forEachInParallel(chosen.size(), 64, [&](std::size_t i) {
+    const auto& [a, b, to] = chosen[i];
+    const Vec3d along = p[b] - p[a];
+    const double l = dot(along, along), share = l > 0 ? std::clamp(dot(to.place - p[a], along) / l, 0.0, 1.0) : 0.5;
+    mProperties.blend(a, b, share);
+    if (mRule.memory > 0)
+      mAccumulated[a] = mAccumulated[a].relativeTo(to.place - p[a]) + mAccumulated[b].relativeTo(to.place - p[b]);
+    p[a] = to.place;
+    mSurface.locked[a] = mSurface.locked[a] | mSurface.locked[b];
+    for (const StarCorner& c : mStars[b]) {
+      Triangle& t = mSurface.faces[c.face];
+      const bool vanishes = c.next == a || c.previous == a;
+      for (std::uint32_t& v : t) v = vanishes || v == b ? a : v;
+    }
+  });
+  mSurface.faces.erase(std::remove_if(mSurface.faces.begin(), mSurface.faces.end(),
+                                      [](const Triangle& t) { return t[0] == t[1] && t[1] == t[2]; }),
+                       mSurface.faces.end());
+  mCollapses += chosen.size();
+  for (const Chosen& c : chosen) mLimitedMoves += c.to.limited;
+}
+
+}  // namespace pdc::detail

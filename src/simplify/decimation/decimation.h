@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pdc/monitor.h"
+#include "simplify/decimation/edge_collapse.h"
+#include "simplify/decimation/vertex_properties.h"
+#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/vertex_stars.h"
+
+namespace pdc::detail {
+
+/// What decimation works on. Lengths are mean edge lengths, and the middle of the mesh is the origin.
+struct DecimatedSurface {
+  std::vector<Vec3d> positions;
+  Buffer<Triangle> faces;
+  std::vector<std::uint8_t> locked;  ///< By vertex, whether it stays where it is.
+};
+
+/// How it is to be done.
+struct DecimationRule {
+  std::size_t targetFaces;
+  QuadricRule quadrics;
+  double memory;
+  bool subset;
+  double leastCosine;  ///< See CollapseChecks.
+};
+
+/// Collapses edges of a surface in rounds of such as do not touch each other.
+class Decimation {
+ public:
+  Decimation(DecimatedSurface& surface, InterpolatedProperties& properties, const DecimationRule& rule);
+
+  /// Until there are no more faces than wanted, or none may be collapsed. \throws Cancelled.
+  void run(const Monitor& monitor);
+
+  [[nodiscard]] std::size_t rounds() const { return mRounds; }
+  [[nodiscard]] std::size_t collapses() const { return mCollapses; }
+  [[nodiscard]] std::size_t limitedMoves() const { return mLimitedMoves; }
+
+ private:
+  /// An edge that may be collapsed: the corner at its lower end that runs towards the other.
+  struct Candidate {
+    float cost;
+    std::uint32_t hash;  ///< Decides among equal costs: flat parts have nothing else.
+    std::uint32_t a, b;
+    friend bool operator<(const Candidate& x, const Candidate& y) {
+      return x.cost != y.cost   ? x.cost < y.cost
+             : x.hash != y.hash ? x.hash < y.hash
+             : x.a != y.a       ? x.a < y.a
+                                : x.b < y.b;
+    }
+  };
+  struct Chosen {
+    std::uint32_t a, b;
+    EdgeCollapse to;
+  };
+
+  void look();
+  void remember();
+  void findCosts();
+  void findCostsOf(std::uint32_t begin, std::uint32_t end);
+  [[nodiscard]] float costAlone(std::uint32_t corner) const;
+  [[nodiscard]] std::array<std::uint32_t, 2> edgeAt(std::uint32_t corner) const;
+  [[nodiscard]] float costOfCheapest(std::size_t count) const;
+  [[nodiscard]] std::vector<Candidate> cheapest(std::size_t count);
+  [[nodiscard]] EdgeCollapse collapseOf(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::vector<Chosen> choose(const std::vector<Candidate>& candidates);
+  void apply(const std::vector<Chosen>& chosen);
+  [[nodiscard]] std::size_t facesAt(std::uint32_t a, std::uint32_t b) const;
+
+  DecimatedSurface& mSurface;
+  InterpolatedProperties& mProperties;
+  const DecimationRule mRule;
+  VertexStars mStars;
+  Buffer<FaceArea> mAreas;
+  Buffer<VertexQuadric> mQuadrics;
+  std::vector<Quadric<double>> mAccumulated;
+  Buffer<float> mCosts;  ///< By corner: of the edge that leaves the vertex there; infinite if it is another's.
+  std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a collapse last touched it.
+  CollapseRule mCollapse;
+  std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0;
+};
+
+}  // namespace pdc::detail

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/program.h"
+#include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/io/mesh/mesh_writer.h"
+#include "simplify/shapes.h"
+
+namespace pdc::test {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(DecimateCommand, WritesFewerTrianglesAndAReport) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.obj";
+  writeMesh(sphere(20), in);
+  const Outcome outcome = runPdc({"decimate", in, out, "--ratio", "0.1", "--json", "-", "--threads", "2"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.err, "");
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["faces_before"], 4800);
+  EXPECT_EQ(report["faces"], 480);
+  EXPECT_EQ(report["vertices"], 242);
+  EXPECT_EQ(report["end"], "reached");
+  EXPECT_EQ(report["quadric"], "probabilistic-plane");
+  EXPECT_EQ(report["warnings"], Json::array());
+  EXPECT_EQ(readMesh(out).triangles.size(), 480u);
+  EXPECT_EQ(runPdc({"check", out}).exitCode, 0);
+}
+
+TEST(DecimateCommand, SaysWhatItDid) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.ply";
+  writeMesh(sphere(10), in);
+  const Outcome outcome =
+      runPdc({"decimate", in, out, "--faces", "100", "--quadric", "triangle", "--placement", "subset", "--ascii"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.out.find(": 100 of 1200 triangles, 52 vertices;"), std::string::npos) << outcome.out;
+  EXPECT_EQ(readFile(out).substr(0, 16), "ply\nformat ascii");
+  EXPECT_EQ(runPdc({"decimate", in, out, "--faces", "100", "--quiet"}).out, "");
+}
+
+TEST(DecimateCommand, WarnsWhereTheTargetIsOutOfReach) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.ply";
+  writeMesh(sphere(4), in);
+  const Outcome outcome = runPdc({"decimate", in, out, "--faces", "0"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("pdc: warning: 4 triangles are left"), std::string::npos) << outcome.err;
+}
+
+TEST(DecimateCommand, PolygonsAndPropertiesPass) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("pentagon.obj", "v 0 0 0\nv 2 0 0\nv 3 2 0\nv 1 3 0\nv -1 2 0\nf 1 2 3 4 5\n");
+  EXPECT_EQ(runPdc({"decimate", in, folder / "out.ply", "--ratio", "1"}).exitCode, 0);
+  EXPECT_EQ(readMesh(folder / "out.ply").triangles.size(), 3u);
+
+  Mesh ball = sphere(8);
+  ball.properties = {{"height", 1, Buffer<float>(ball.positions.size(), 2.5F)}};
+  writeMesh(ball, folder / "ball.ply");
+  EXPECT_EQ(runPdc({"decimate", folder / "ball.ply", folder / "out.ply", "--ratio", "0.3"}).exitCode, 0);
+  const Mesh fewer = readMesh(folder / "out.ply");
+  EXPECT_EQ(fewer.values<float>("height").size(), fewer.positions.size());
+  for (const float height : fewer.values<float>("height")) EXPECT_EQ(height, 2.5F);
+}
+
+TEST(DecimateCommand, RefusesInOneLine) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.ply";
+  writeMesh(sphere(4), in);
+  const std::string before = readFile(in);
+  const auto refuses = [&](const Arguments& options, int exitCode, const std::vector<std::string>& mentions) {
+    Arguments arguments{"decimate", in, out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expectOneLineRefusal(runPdc(arguments), exitCode, mentions);
+  };
+  refuses({}, 2, {"--faces", "--ratio", "required"});
+  refuses({"--ratio", "0"}, 2, {"--ratio", "0", "above 0"});
+  refuses({"--ratio", "1.5"}, 2, {"--ratio", "1.5", "at most 1"});
+  refuses({"--faces", "-1"}, 2, {"--faces", "-1"});
+  refuses({"--faces", "9", "--sigma-n", "-0.1"}, 2, {"--sigma-n", "-0.1", ">= 0"});
+  refuses({"--faces", "9", "--memory", "2"}, 2, {"--memory", "2", "0 to 1"});
+  refuses({"--faces", "9", "--quadric", "cubic"}, 2, {"--quadric", "cubic", "probabilistic-plane"});
+  refuses({"--faces", "9", "--max-turn", "100"}, 2, {"--max-turn", "100", "90"});
+  refuses({"--faces", "9", "--json", in}, 2, {"--json", "INPUT"});
+  expectOneLineRefusal(runPdc({"decimate", folder / "none.ply", out, "--faces", "9"}), 1, {"none.ply"});
+  expectOneLineRefusal(runPdc({"decimate", in, folder / "out.txt", "--faces", "9"}), 1, {"out.txt"});
+  expectOneLineRefusal(runPdc({"decimate", in, folder / "no/out.ply", "--faces", "9"}), 1, {"no"});
+  EXPECT_EQ(readFile(in), before);
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"ball.ply"}) << "nothing is left behind";
+}
+
+}  // namespace
+}  // namespace pdc::test
