@@ -79,6 +79,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"rounds", r.rounds},
           {"collapses", r.collapses},
           {"limited_moves", r.limitedMoves},
+          {"refused_intersections", r.refusedIntersections},
           {"degenerate_faces", r.degenerateFaces},
           {"non_manifold_vertices", r.nonManifoldVertices},
           {"bytes", run.bytesWritten},
@@ -161,6 +162,9 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       "a finite number >= 0", "How much boundaries resist, relative to faces (10)")
       ->type_name("W")
       ->group(quadrics);
+  command.add_flag("--sound", options.sound, "No faces come to intersect; takes several times as long")
+      ->group(quadrics);
+  command.add_flag("--no-fit", request.noFit, "Leave out the least squares at the end")->group(quadrics);
   command.add_flag("--lock-boundary", options.lockBoundary, "Vertices at boundaries stay")->group(quadrics);
   const auto output = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(output);
@@ -190,6 +194,7 @@ void runDecimate(const DecimateRequest& request) {
   DecimateOptions options = request.options;
   if (request.faces) options.faces = static_cast<std::size_t>(*request.faces);
   options.maxTurn = request.maxTurn.value_or(options.maxTurn);
+  options.fit = !request.noFit;
   options.boundaryWeight = request.boundaryWeight.value_or(options.boundaryWeight);
   {
     ProgressBar bar(!request.quiet);

@@ -14,7 +14,7 @@ struct DecimateRequest {
   DecimateOptions options;
   std::optional<int> faces, threads;
   std::optional<double> maxTurn, boundaryWeight;
-  bool ascii = false, quiet = false;
+  bool noFit = false, ascii = false, quiet = false;
 };
 
 void addDecimateOptions(CLI::App& command, DecimateRequest& request);

@@ -45,6 +45,12 @@ struct DecimateOptions {
   /// How much boundary edges resist being left, 0 or more, relative to faces of their size.
   double boundaryWeight = 10;
   bool lockBoundary = false;  ///< Vertices at the boundary stay where they are.
+  /// Whether no two faces may come to intersect that did not before, decided exactly on the result's positions. It
+  /// takes several times as long.
+  bool sound = false;
+  /// Whether the vertices left are moved to where their faces lie nearest to the surface given, in the least squares;
+  /// those of kSubset never are.
+  bool fit = true;
 };
 
 /// Why decimation ended.
@@ -63,19 +69,21 @@ struct DecimateReport {
   double sigmaPosition = 0;
   double memory = 0;
   std::size_t rounds = 0, collapses = 0;
-  std::size_t limitedMoves = 0;         ///< Collapses whose minimum was too far away to go there.
-  std::size_t degenerateFaces = 0;      ///< Faces given that name a vertex twice or have no finite corners: dropped.
-  std::size_t nonManifoldVertices = 0;  ///< Vertices given about which the surface is none: they stay as they are.
+  std::size_t limitedMoves = 0;          ///< Collapses whose minimum was too far away to go there.
+  std::size_t refusedIntersections = 0;  ///< Collapses that would have made faces intersect, where that was asked for.
+  std::size_t degenerateFaces = 0;       ///< Faces given that name a vertex twice or have no finite corners: dropped.
+  std::size_t nonManifoldVertices = 0;   ///< Vertices given about which the surface is none: they stay as they are.
 };
 
 /// Replaces a mesh by one of fewer triangles that lies as close to it as it can, by collapsing edges (Garland &
 /// Heckbert 1997) into vertices at the minimum of their quadrics, drawn towards where they keep the enclosed volume
-/// (Lindstrom & Turk 1998).
+/// (Lindstrom & Turk 1998); what is left moves to its least squares (Hoppe et al. 1993).
 ///
 /// Edges are collapsed in rounds: of all edges those of least error that do not touch each other, so that rounds run in
 /// parallel and the result does not depend on the number of threads. Where the surface is a manifold it stays one, of
 /// the same topology, without degenerate and without duplicate faces; elsewhere it stays as it is. The result does not
-/// depend on the unit of length, nor, to rounding, on where the mesh lies. Nothing keeps far parts from intersecting.
+/// depend on the unit of length, nor, to rounding, on where the mesh lies. Without
+/// `sound` nothing keeps faces from intersecting.
 ///
 /// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.

@@ -11,6 +11,8 @@
 #include "mesh/mesh_checks.h"
 #include "pdc/math/box.h"
 #include "simplify/decimation/decimation.h"
+#include "simplify/decimation/surface_fit.h"
+#include "simplify/mesh_noise.h"
 
 namespace pdc {
 namespace {
@@ -56,36 +58,10 @@ Buffer<Triangle> usableTriangles(const Mesh& mesh) {
   return faces;
 }
 
-/// Maps a mesh to the unit that decimation has, and back.
-struct LocalFrame {
-  Vec3d center{};
-  double unit = 1;
-
-  LocalFrame(const Mesh& mesh, const Buffer<Triangle>& faces) {
-    double sum = 0;
-    Vec3d low{}, high{};
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (int k = 0; k < 3; ++k) {
-        const Vec3d p = vecCast<double>(mesh.positions[faces[i][k]]);
-        sum += length(p - vecCast<double>(mesh.positions[faces[i][(k + 1) % 3]]));
-        for (int axis = 0; axis < 3; ++axis) {
-          low[axis] = i + k == 0 ? p[axis] : std::min(low[axis], p[axis]);
-          high[axis] = i + k == 0 ? p[axis] : std::max(high[axis], p[axis]);
-        }
-      }
-    center = (low + high) * 0.5;
-    if (sum > 0) unit = sum / (3 * static_cast<double>(faces.size()));
-  }
-
-  [[nodiscard]] Vec3d local(const Vec3f& p) const { return (vecCast<double>(p) - center) * (1 / unit); }
-  [[nodiscard]] Vec3f world(const Vec3d& p) const { return vecCast<float>(p * unit + center); }
-};
-
 /// Vertices about which the surface is none stay, and at its boundary if so wanted. \returns how many of the former.
-std::size_t lockVertices(detail::DecimatedSurface& surface, bool boundary) {
-  detail::VertexStars stars;
-  stars.build(surface.faces, surface.positions.size());
+std::size_t lockVertices(detail::DecimatedSurface& surface, const detail::VertexStars& stars, bool boundary) {
   std::size_t nonManifold = 0;
+  surface.locked.resize(surface.positions.size());
   for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
     const bool manifold = detail::isManifoldStar(stars[v]);
     nonManifold += !manifold;
@@ -94,9 +70,9 @@ std::size_t lockVertices(detail::DecimatedSurface& surface, bool boundary) {
   return nonManifold;
 }
 
-/// The choices that the mesh's noise makes.
-void chooseNoise(const Mesh& mesh, const DecimateOptions& options, DecimateReport& report) {
-  const double noise = report.noise = meshNoise(mesh);
+/// The choices that the surface's noise makes.
+void chooseNoise(double noise, const DecimateOptions& options, DecimateReport& report) {
+  report.noise = noise;
   // Small ones fade away.
   const double normal = kNormalNoise * noise * noise * noise / (noise * noise + kLeastNoise * kLeastNoise);
   report.sigmaNormal = options.sigmaNormal.value_or(std::max(kLeastSigma, normal));
@@ -121,8 +97,8 @@ Buffer<Vec3f> vertexNormals(const Mesh& mesh) {
 }
 
 /// The mesh of what is left, its vertices in the order they had.
-Mesh meshOf(const detail::DecimatedSurface& surface, const LocalFrame& frame,
-            const detail::InterpolatedProperties& properties, const Mesh& given) {
+Mesh meshOf(const detail::DecimatedSurface& surface, const detail::InterpolatedProperties& properties,
+            const Mesh& given) {
   constexpr auto kUnused = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> number(surface.positions.size(), kUnused), used;
   for (const Triangle& t : surface.faces)
@@ -133,7 +109,7 @@ Mesh meshOf(const detail::DecimatedSurface& surface, const LocalFrame& frame,
     if (number[v] == kUnused) continue;
     number[v] = static_cast<std::uint32_t>(used.size());
     used.push_back(v);
-    mesh.positions.push_back(frame.world(surface.positions[v]));
+    mesh.positions.push_back(surface.frame.world(surface.positions[v]));
   }
   for (const Triangle& t : surface.faces) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   mesh.properties = properties.of(used);
@@ -163,30 +139,40 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   detail::DecimatedSurface surface;
   surface.faces = usableTriangles(mesh);
   facts.degenerateFaces = facts.facesBefore - surface.faces.size();
-  const LocalFrame frame(mesh, surface.faces);
-  facts.meanEdge = frame.unit;
+  surface.frame = detail::LocalFrame(mesh, surface.faces);
+  facts.meanEdge = surface.frame.unit();
   surface.positions.reserve(mesh.positions.size());
-  for (const Vec3f& p : mesh.positions) surface.positions.push_back(frame.local(p));
-  surface.locked.assign(surface.positions.size(), 0);
-  facts.nonManifoldVertices = lockVertices(surface, options.lockBoundary);
-  chooseNoise(mesh, options, facts);
+  for (const Vec3f& p : mesh.positions) surface.positions.push_back(surface.frame.local(p));
+  {
+    detail::VertexStars stars;
+    stars.build(surface.faces, surface.positions.size());
+    facts.nonManifoldVertices = lockVertices(surface, stars, options.lockBoundary);
+    chooseNoise(detail::meshNoise(stars, surface.positions), options, facts);
+  }
 
+  detail::GivenSurface given{surface.positions, surface.faces, {}};
   detail::InterpolatedProperties properties(mesh);
   const detail::DecimationRule rule{targetOf(options, facts.facesBefore),
                                     {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
                                     facts.memory,
                                     options.placement == CollapsePlacement::kSubset,
-                                    std::cos(options.maxTurn * std::numbers::pi / 180)};
+                                    std::cos(options.maxTurn * std::numbers::pi / 180),
+                                    options.sound};
   detail::Decimation decimation(surface, properties, rule);
   decimation.run(monitor);
+  if (options.placement == CollapsePlacement::kMinimizer && options.fit) {
+    given.became = decimation.became();
+    detail::fitSurface(surface, given, {rule.leastCosine, facts.sigmaNormal, options.sound}, monitor);
+  }
 
-  Mesh result = meshOf(surface, frame, properties, mesh);
+  Mesh result = meshOf(surface, properties, mesh);
   facts.facesAfter = result.triangles.size();
   facts.verticesAfter = result.positions.size();
   facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached : DecimateEnd::kNoCollapseLeft;
   facts.rounds = decimation.rounds();
   facts.collapses = decimation.collapses();
   facts.limitedMoves = decimation.limitedMoves();
+  facts.refusedIntersections = decimation.refusals();
   return result;
 }
 

@@ -2,23 +2,18 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "pdc/monitor.h"
+#include "simplify/decimation/decimated_surface.h"
 #include "simplify/decimation/edge_collapse.h"
 #include "simplify/decimation/vertex_properties.h"
 #include "simplify/decimation/vertex_quadrics.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {
-
-/// What decimation works on. Lengths are mean edge lengths, and the middle of the mesh is the origin.
-struct DecimatedSurface {
-  std::vector<Vec3d> positions;
-  Buffer<Triangle> faces;
-  std::vector<std::uint8_t> locked;  ///< By vertex, whether it stays where it is.
-};
 
 /// How it is to be done.
 struct DecimationRule {
@@ -27,6 +22,7 @@ struct DecimationRule {
   double memory;
   bool subset;
   double leastCosine;  ///< See CollapseChecks.
+  bool sound;          ///< Whether no face may come to intersect another.
 };
 
 /// Collapses edges of a surface in rounds of such as do not touch each other.
@@ -37,9 +33,13 @@ class Decimation {
   /// Until there are no more faces than wanted, or none may be collapsed. \throws Cancelled.
   void run(const Monitor& monitor);
 
+  /// By vertex given, that into which it was collapsed, or itself.
+  [[nodiscard]] const std::vector<std::uint32_t>& became() const { return mBecame; }
   [[nodiscard]] std::size_t rounds() const { return mRounds; }
   [[nodiscard]] std::size_t collapses() const { return mCollapses; }
   [[nodiscard]] std::size_t limitedMoves() const { return mLimitedMoves; }
+  /// Collapses that would have made faces intersect.
+  [[nodiscard]] std::size_t refusals() const { return mRefusals; }
 
  private:
   /// An edge that may be collapsed: the corner at its lower end that runs towards the other.
@@ -54,10 +54,6 @@ class Decimation {
                                 : x.b < y.b;
     }
   };
-  struct Chosen {
-    std::uint32_t a, b;
-    EdgeCollapse to;
-  };
 
   void look();
   void remember();
@@ -68,8 +64,10 @@ class Decimation {
   [[nodiscard]] float costOfCheapest(std::size_t count) const;
   [[nodiscard]] std::vector<Candidate> cheapest(std::size_t count);
   [[nodiscard]] EdgeCollapse collapseOf(std::uint32_t a, std::uint32_t b) const;
-  [[nodiscard]] std::vector<Chosen> choose(const std::vector<Candidate>& candidates);
-  void apply(const std::vector<Chosen>& chosen);
+  [[nodiscard]] std::vector<ChosenCollapse> choose(const std::vector<Candidate>& candidates);
+  void apply(const std::vector<ChosenCollapse>& chosen);
+  void refuse(const std::vector<ChosenCollapse>& collapses);
+  [[nodiscard]] bool isRefused(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::size_t facesAt(std::uint32_t a, std::uint32_t b) const;
 
   DecimatedSurface& mSurface;
@@ -80,9 +78,13 @@ class Decimation {
   Buffer<VertexQuadric> mQuadrics;
   std::vector<Quadric<double>> mAccumulated;
   Buffer<float> mCosts;  ///< By corner: of the edge that leaves the vertex there; infinite if it is another's.
-  std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a collapse last touched it.
+  std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a chosen collapse last touched it.
+  std::vector<std::uint32_t> mChanged;  ///< The same of collapses that were done; only where it has to be sound.
+  std::vector<std::uint32_t> mBecame;
   CollapseRule mCollapse;
-  std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0;
+  /// By the ends of an edge, the round in which its collapse was refused. It waits until a collapse touches an end.
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> mRefused;
+  std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0, mRefusals = 0;
 };
 
 }  // namespace pdc::detail

@@ -14,6 +14,12 @@ struct EdgeCollapse {
   bool limited;  ///< Whether the minimum was too far away.
 };
 
+/// A collapse that is to be done: of the edge between a and b into a.
+struct ChosenCollapse {
+  std::uint32_t a, b;
+  EdgeCollapse to;
+};
+
 /// Places vertices of collapsed edges.
 class CollapseRule {
  public:

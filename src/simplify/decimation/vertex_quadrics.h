@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pdc/math/quadric.h"
+#include "pdc/math/triangle_quadric.h"
 #include "pdc/simplify/decimate.h"
 #include "simplify/vertex_stars.h"
 
@@ -30,7 +31,8 @@ struct FaceArea {
   double inverse;  ///< 1 / size, or 0 where there is no area.
 
   FaceArea() = default;
-  FaceArea(const Vec3d& p, const Vec3d& q, const Vec3d& r);
+  FaceArea(const Vec3d& p, const Vec3d& q, const Vec3d& r)
+      : vector(cross(q - p, r - p)), size(length(vector)), inverse(size > 0 ? 1 / size : 0) {}
 };
 
 /// What the faces at a vertex sum up to, about the vertex itself: there b and c are small, and so is what rounding does
@@ -41,9 +43,51 @@ struct VertexQuadric {
   Vec3d vectorArea;  ///< The sum of the faces' vectors.
 };
 
-/// Sums up the faces at a vertex, and at a boundary the planes through its edges that stand on their faces.
-[[nodiscard]] VertexQuadric vertexQuadric(std::uint32_t vertex, std::span<const StarCorner> star,
-                                          const std::vector<Vec3d>& positions, const Buffer<FaceArea>& areas,
-                                          const QuadricRule& rule);
+/// Adds the planes through the boundary's edges at the vertex p that stand on their faces.
+void addBoundary(VertexQuadric& sum, const Vec3d& p, std::span<const StarCorner> star,
+                 const std::vector<Vec3d>& positions, const Buffer<FaceArea>& areas, const QuadricRule& rule);
+
+/// What noise adds to planes through the vertex: see probabilisticPlaneQuadric().
+inline void addNoise(VertexQuadric& sum, const QuadricRule& rule) {
+  const double n = rule.sigmaNormal * rule.sigmaNormal, p = rule.sigmaPosition * rule.sigmaPosition;
+  sum.q.A = sum.q.A.plusDiagonal(n * sum.weight);
+  sum.q.c += p * (1 + 3 * n) * sum.weight;
+}
+
+/// Sums up the faces at a vertex, and at a boundary the planes through its edges that stand on their faces. It is
+/// inline so that callers compile it for a SimdLevel.
+inline VertexQuadric vertexQuadric(std::uint32_t vertex, std::span<const StarCorner> star,
+                                   const std::vector<Vec3d>& positions, const Buffer<FaceArea>& areas,
+                                   const QuadricRule& rule) {
+  VertexQuadric sum{Quadric<double>::zero(), 0, Vec3d{}};
+  const Vec3d& p = positions[vertex];
+  const bool ofTriangles = rule.ofTriangles();
+  // All planes go through the vertex, the origin: they have neither b nor c.
+  for (const StarCorner& c : star) {
+    const FaceArea& face = areas[c.face];
+    sum.vectorArea += face.vector;
+    sum.q.A += outer(face.vector) * (ofTriangles ? 1 : face.inverse);
+    sum.weight += ofTriangles ? face.size * face.size : face.size;
+  }
+  switch (rule.kind) {
+    case QuadricKind::kPlane:
+    case QuadricKind::kTriangle:
+      break;
+    case QuadricKind::kProbabilisticPlane:
+      addNoise(sum, rule);
+      break;
+    case QuadricKind::kProbabilisticTriangle:
+      sum.q = Quadric<double>::zero();
+      for (const StarCorner& c : star)
+        sum.q +=
+            probabilisticTriangleQuadric(Vec3d{}, positions[c.next] - p, positions[c.previous] - p, rule.sigmaPosition);
+      break;
+    case QuadricKind::kPoint:
+      sum.q.A = SymMat3<double>::identity() * sum.weight;
+      break;
+  }
+  if (atBoundary(star)) addBoundary(sum, p, star, positions, areas, rule);
+  return sum;
+}
 
 }  // namespace pdc::detail

@@ -256,6 +256,60 @@ TEST(Decimate, StopsWhenAsked) {
   EXPECT_THROW(static_cast<void>(decimate(sphere(20), {.faces = 100}, nullptr, monitor)), Cancelled);
 }
 
+/// A sphere whose inside is hollow but for a wall of this thickness.
+Mesh shell(int n, float thickness) {
+  Mesh mesh = sphere(n);
+  const auto size = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t v = 0; v < size; ++v) mesh.positions.push_back(mesh.positions[v] * (1 - thickness));
+  for (std::size_t t = 0, count = mesh.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    mesh.triangles.push_back({a + size, c + size, b + size});
+  }
+  return mesh;
+}
+
+TEST(Decimate, SoundMeshesStaySound) {
+  const Mesh thin = shell(20, 0.004F);
+  ASSERT_TRUE(selfIntersections(thin).pairs.empty());
+  const Mesh plain = decimate(thin, {.ratio = 0.1});
+  EXPECT_GT(selfIntersections(plain).pairs.size(), 10u) << "or the test shows nothing";
+  DecimateReport report;
+  const Mesh sound = decimate(thin, {.ratio = 0.1, .sound = true}, &report);
+  EXPECT_TRUE(selfIntersections(sound).pairs.empty());
+  EXPECT_EQ(selfIntersections(sound).degenerateTriangles, 0u);
+  EXPECT_GT(report.refusedIntersections, 0u);
+  EXPECT_LT(sound.triangles.size(), thin.triangles.size() / 2);
+  const MeshReport facts = analyze(sound);
+  EXPECT_EQ(facts.components, 2u);
+  EXPECT_EQ(facts.nonManifoldEdges + facts.boundaryEdges, 0u);
+}
+
+TEST(Decimate, WhatIntersectsBeforeMayStay) {
+  Mesh two = sphere(8);
+  const auto size = static_cast<std::uint32_t>(two.positions.size());
+  for (std::uint32_t v = 0; v < size; ++v) two.positions.push_back(two.positions[v] + Vec3f{1, 0.1F, 0});
+  for (std::size_t t = 0, count = two.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = two.triangles[t];
+    two.triangles.push_back({a + size, b + size, c + size});
+  }
+  const std::size_t before = selfIntersections(two).pairs.size();
+  ASSERT_GT(before, 0u);
+  const Mesh sound = decimate(two, {.ratio = 0.5, .sound = true});
+  EXPECT_LE(selfIntersections(sound).pairs.size(), before);
+  EXPECT_LE(sound.triangles.size(), two.triangles.size() / 2);
+}
+
+TEST(Decimate, FitBringsFacesNearer) {
+  const Mesh ball = sphere(40);
+  const auto error = [&](bool fit) {
+    const Buffer<double> all = vertexDistances(ball, decimate(ball, {.ratio = 0.05, .fit = fit}));
+    double sum = 0;
+    for (const double d : all) sum += d / static_cast<double>(all.size());
+    return sum;
+  };
+  EXPECT_LT(error(true), 0.95 * error(false));
+}
+
 TEST(MeshNoise, IsThatOfTheVertices) {
   Mesh ball = sphere(60);
   EXPECT_LT(meshNoise(ball), 0.005);
