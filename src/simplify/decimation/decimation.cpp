@@ -72,6 +72,8 @@ Decimation::Decimation(DecimatedSurface& surface, InterpolatedProperties& proper
 void Decimation::run(const Monitor& monitor) {
   const std::size_t before = mSurface.faces.size(), wanted = before - std::min(before, mRule.targetFaces);
   std::size_t least = kLeastOfRound;
+  FacePairs pairs;
+  if (mRule.sound) pairs = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
   while (mSurface.faces.size() > mRule.targetFaces) {
     monitor.throwIfStopped();
     ++mRounds;
@@ -82,7 +84,7 @@ void Decimation::run(const Monitor& monitor) {
     const std::vector<Candidate> candidates = cheapest(std::max(least, std::min(share, 2 * left)));
     std::vector<ChosenCollapse> chosen = choose(candidates);
     const bool none = chosen.empty();
-    if (mRule.sound) refuse(takeOutIntersecting(mSurface, mStars, chosen, monitor));
+    if (mRule.sound) refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));
     apply(chosen);
     // Where nothing cheap may be collapsed, more is looked at.
     if (none && candidates.size() < least) return;

@@ -7,39 +7,72 @@
 namespace pdc::detail {
 namespace {
 
-constexpr auto kNone = static_cast<std::uint32_t>(-1);
-
-/// A surface after some collapses: its faces that are left, and for each the collapse that has changed it, or kNone.
-struct Collapsed {
-  std::vector<Vec3d> positions;
-  std::vector<Triangle> faces;
-  std::vector<std::uint32_t> changedBy;
-
+/// A surface after some collapses. What was about the edge of one is one thing, and so is each other face.
+class Collapsed {
+ public:
   Collapsed(const DecimatedSurface& surface, const VertexStars& stars, std::span<const ChosenCollapse> collapses)
-      : positions(surface.positions) {
+      : mCollapses(collapses.size()), mPositions(surface.positions), mThing(surface.faces.size()) {
     std::vector<Triangle> all(surface.faces.begin(), surface.faces.end());
-    std::vector<std::uint32_t> owner(all.size(), kNone);
+    for (std::uint32_t f = 0; f < all.size(); ++f) mThing[f] = static_cast<std::uint32_t>(mCollapses + f);
     for (std::uint32_t i = 0; i < collapses.size(); ++i) {
       const auto& [a, b, to] = collapses[i];
-      positions[a] = to.place;
+      mPositions[a] = to.place;
       for (const std::uint32_t v : {a, b})
-        for (const StarCorner& c : stars[v]) owner[c.face] = i;
+        for (const StarCorner& c : stars[v]) mThing[c.face] = i;
       for (const StarCorner& c : stars[b])
         for (std::uint32_t& v : all[c.face]) v = v == b ? a : v;
     }
-    for (std::size_t f = 0; f < all.size(); ++f) {
+    for (std::uint32_t f = 0; f < all.size(); ++f) {
       const auto& [u, v, w] = all[f];
       if (u == v || v == w || w == u) continue;
-      faces.push_back(all[f]);
-      changedBy.push_back(owner[f]);
+      mFaces.push_back(all[f]);
+      mBefore.push_back(f);
     }
   }
+
+  [[nodiscard]] FacePairs intersections(const LocalFrame& frame, const Monitor& monitor) const {
+    return intersectingFaces(frame, mPositions, mFaces, monitor);
+  }
+
+  /// The things that pairs of faces belong to, the lower first, sorted. \param after whether they are faces that are
+  /// left, or such as were there before.
+  [[nodiscard]] FacePairs thingsOf(const FacePairs& pairs, bool after) const {
+    FacePairs things;
+    for (const auto& [f, g] : pairs) {
+      const std::uint32_t s = mThing[after ? mBefore[f] : f], t = mThing[after ? mBefore[g] : g];
+      things.push_back({std::min(s, t), std::max(s, t)});
+    }
+    std::sort(things.begin(), things.end());
+    return things;
+  }
+  /// Whether a thing is what a collapse has changed; its number is that of the collapse.
+  [[nodiscard]] bool isCollapse(std::uint32_t thing) const { return thing < mCollapses; }
+
+ private:
+  std::size_t mCollapses;
+  std::vector<Vec3d> mPositions;
+  std::vector<std::uint32_t> mThing;  ///< By face before.
+  std::vector<Triangle> mFaces;
+  std::vector<std::uint32_t> mBefore;  ///< By face that is left, its number before.
 };
+
+/// By collapse, whether it makes things intersect that did not before.
+std::vector<std::uint8_t> findBad(const Collapsed& after, const FacePairs& before, const FacePairs& now,
+                                  std::size_t collapses) {
+  std::vector<std::uint8_t> bad(collapses, 0);
+  const FacePairs known = after.thingsOf(before, false);
+  for (const auto& pair : after.thingsOf(now, true)) {
+    if (std::binary_search(known.begin(), known.end(), pair)) continue;
+    for (const std::uint32_t thing : pair)
+      if (after.isCollapse(thing)) bad[thing] = 1;
+  }
+  return bad;
+}
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 2>> intersectingFaces(const LocalFrame& frame, std::span<const Vec3d> positions,
-                                                            std::span<const Triangle> faces, const Monitor& monitor) {
+FacePairs intersectingFaces(const LocalFrame& frame, std::span<const Vec3d> positions, std::span<const Triangle> faces,
+                            const Monitor& monitor) {
   Mesh mesh;
   mesh.positions.reserve(positions.size());
   for (const Vec3d& p : positions) mesh.positions.push_back(frame.world(p));
@@ -48,25 +81,20 @@ std::vector<std::array<std::uint32_t, 2>> intersectingFaces(const LocalFrame& fr
 }
 
 std::vector<ChosenCollapse> takeOutIntersecting(const DecimatedSurface& surface, const VertexStars& stars,
-                                                std::vector<ChosenCollapse>& collapses, const Monitor& monitor) {
+                                                std::vector<ChosenCollapse>& collapses, FacePairs& pairs,
+                                                const Monitor& monitor) {
   std::vector<ChosenCollapse> out;
   while (!collapses.empty()) {
     const Collapsed after(surface, stars, collapses);
-    std::vector<std::uint8_t> bad(collapses.size(), 0);
-    for (const auto& pair : intersectingFaces(surface.frame, after.positions, after.faces, monitor))
-      for (const std::uint32_t f : pair)
-        if (after.changedBy[f] != kNone) bad[after.changedBy[f]] = 1;
-    const std::size_t before = out.size();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < collapses.size(); ++i) {
-      if (bad[i] != 0) {
-        out.push_back(collapses[i]);
-      } else {
-        collapses[kept++] = collapses[i];
-      }
-    }
-    collapses.resize(kept);
-    if (out.size() == before) break;
+    FacePairs now = after.intersections(surface.frame, monitor);
+    const std::vector<std::uint8_t> bad = findBad(after, pairs, now, collapses.size());
+    std::vector<ChosenCollapse> kept;
+    for (std::size_t i = 0; i < collapses.size(); ++i) (bad[i] != 0 ? out : kept).push_back(collapses[i]);
+    const bool all = kept.size() == collapses.size();
+    collapses.swap(kept);
+    if (!all) continue;
+    pairs.swap(now);
+    break;
   }
   return out;
 }

@@ -12,17 +12,19 @@
 
 namespace pdc::detail {
 
+using FacePairs = std::vector<std::array<std::uint32_t, 2>>;
+
 /// Pairs of faces that intersect, decided exactly on positions as the result will have them: in single precision, in
 /// world space. \throws Cancelled.
-[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> intersectingFaces(const LocalFrame& frame,
-                                                                          std::span<const Vec3d> positions,
-                                                                          std::span<const Triangle> faces,
-                                                                          const Monitor& monitor);
+[[nodiscard]] FacePairs intersectingFaces(const LocalFrame& frame, std::span<const Vec3d> positions,
+                                          std::span<const Triangle> faces, const Monitor& monitor);
 
-/// Splits collapses, which do not touch each other, into such as make no face intersect another and the rest, which is
-/// returned. What intersects before does not count, unless a face of it changes.
+/// Splits collapses, which do not touch each other, into such as make no faces intersect that did not before, nor did
+/// those they came from, and the rest, which is returned.
+/// \param pairs of the surface's faces that intersect; replaced by those after the collapses that stay, whose faces
+/// have the order that they had. \throws Cancelled.
 [[nodiscard]] std::vector<ChosenCollapse> takeOutIntersecting(const DecimatedSurface& surface, const VertexStars& stars,
-                                                              std::vector<ChosenCollapse>& collapses,
+                                                              std::vector<ChosenCollapse>& collapses, FacePairs& pairs,
                                                               const Monitor& monitor);
 
 }  // namespace pdc::detail

@@ -91,6 +91,7 @@ class SurfaceFit {
   /// \throws Cancelled.
   void step(const Monitor& monitor) {
     monitor.throwIfStopped();
+    if (mRule.sound) mPairs = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
     mMoved.assign(mSurface.positions.begin(), mSurface.positions.end());
     forEachInParallel(mMoved.size(), [&](std::uint32_t v) {
       const std::span<const StarCorner> star = mStars[v];
@@ -235,11 +236,13 @@ class SurfaceFit {
     }
   }
 
-  /// Takes back the moves about faces that intersect. \returns whether there were any.
+  /// Takes back the moves about faces that intersect and did not before. \returns whether there were any.
   bool takeBackIntersecting(const Monitor& monitor) {
     bool any = false;
-    for (const auto& pair : intersectingFaces(mSurface.frame, mMoved, mSurface.faces, monitor))
+    for (const auto& pair : intersectingFaces(mSurface.frame, mMoved, mSurface.faces, monitor)) {
+      if (std::binary_search(mPairs.begin(), mPairs.end(), pair)) continue;
       for (const std::uint32_t f : pair) any = takeBack(mSurface.faces[f]) || any;
+    }
     return any;
   }
 
@@ -270,6 +273,7 @@ class SurfaceFit {
   Buffer<Sample> mSamples;
   Buffer<std::uint32_t> mFirst, mList;  ///< By face, where its samples begin in the list of all.
   Buffer<Vec3d> mMoved;
+  FacePairs mPairs;  ///< That intersect before a step, sorted.
 };
 
 }  // namespace
