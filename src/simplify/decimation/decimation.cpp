@@ -81,13 +81,13 @@ void Decimation::run(const Monitor& monitor) {
     findCosts();
     const std::size_t left = (mSurface.faces.size() - mRule.targetFaces + 1) / 2;
     const auto share = static_cast<std::size_t>(kShareOfRound * 0.5 * static_cast<double>(mSurface.faces.size()));
-    const std::vector<Candidate> candidates = cheapest(std::max(least, std::min(share, 2 * left)));
+    const auto [candidates, all] = cheapest(std::max(least, std::min(share, 2 * left)));
     std::vector<ChosenCollapse> chosen = choose(candidates);
     const bool none = chosen.empty();
     if (mRule.sound) refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));
     apply(chosen);
     // Where nothing cheap may be collapsed, more is looked at.
-    if (none && candidates.size() < least) return;
+    if (none && all) return;
     least = none ? 4 * std::max(least, candidates.size()) : kLeastOfRound;
     if (monitor.progress)
       monitor.progress("decimate", static_cast<double>(before - mSurface.faces.size()) / static_cast<double>(wanted));
@@ -199,7 +199,7 @@ float Decimation::costOfCheapest(std::size_t count) const {
 }
 
 /// About so many of those of least cost, in order.
-std::vector<Decimation::Candidate> Decimation::cheapest(std::size_t count) {
+Decimation::Candidates Decimation::cheapest(std::size_t count) const {
   const float most = costOfCheapest(count);
   std::vector<Candidate> candidates;
   for (std::uint32_t i = 0; i < mCosts.size(); ++i) {
@@ -209,8 +209,9 @@ std::vector<Decimation::Candidate> Decimation::cheapest(std::size_t count) {
   }
   tbb::parallel_sort(candidates.begin(), candidates.end());
   // Of equal costs there may be any number.
+  const bool all = most == kNever && candidates.size() <= 2 * count;
   if (candidates.size() > 2 * count) candidates.resize(2 * count);
-  return candidates;
+  return {std::move(candidates), all};
 }
 
 std::size_t Decimation::facesAt(std::uint32_t a, std::uint32_t b) const {

@@ -55,6 +55,11 @@ class Decimation {
     }
   };
 
+  struct Candidates {
+    std::vector<Candidate> list;
+    bool all;  ///< Whether there are no others.
+  };
+
   void look();
   void remember();
   void findCosts();
@@ -62,7 +67,7 @@ class Decimation {
   [[nodiscard]] float costAlone(std::uint32_t corner) const;
   [[nodiscard]] std::array<std::uint32_t, 2> edgeAt(std::uint32_t corner) const;
   [[nodiscard]] float costOfCheapest(std::size_t count) const;
-  [[nodiscard]] std::vector<Candidate> cheapest(std::size_t count);
+  [[nodiscard]] Candidates cheapest(std::size_t count) const;
   [[nodiscard]] EdgeCollapse collapseOf(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<ChosenCollapse> choose(const std::vector<Candidate>& candidates);
   void apply(const std::vector<ChosenCollapse>& chosen);

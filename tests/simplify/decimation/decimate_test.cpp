@@ -224,6 +224,16 @@ TEST(Decimate, DegenerateAndEmptyMeshes) {
   EXPECT_LE(decimate(mesh, {.faces = 1}).triangles.size(), 8u);
 }
 
+// Near the target few edges are looked at, and all of those may be such as cannot be collapsed.
+TEST(Decimate, ReachesEveryTarget) {
+  const Mesh box = cube(50);
+  for (std::size_t faces = 300; faces < 30000; faces += 1234) {
+    const Mesh fewer = decimate(box, {.faces = faces});
+    EXPECT_LE(fewer.triangles.size(), faces);
+    EXPECT_GE(fewer.triangles.size() + 2, faces);
+  }
+}
+
 TEST(Decimate, TetrahedronIsTheLeast) {
   DecimateReport report;
   const Mesh least = decimate(sphere(4), {.faces = 0}, &report);
