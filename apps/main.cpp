@@ -8,6 +8,7 @@
 #include <string>
 
 #include "commands/check_command.h"
+#include "commands/cluster_command.h"
 #include "commands/decimate_command.h"
 #include "commands/info_command.h"
 #include "commands/mesh_command.h"
@@ -53,6 +54,10 @@ int run(int argc, char** argv) {
   pdc::DecimateRequest decimate;
   CLI::App* decimateCommand = app.add_subcommand("decimate", "Write a mesh with fewer triangles");
   pdc::addDecimateOptions(*decimateCommand, decimate);
+  pdc::ClusterRequest cluster;
+  CLI::App* clusterCommand =
+      app.add_subcommand("cluster", "Write a mesh with one vertex for each cell of a grid, fast");
+  pdc::addClusterOptions(*clusterCommand, cluster);
   pdc::SweepRequest sweep;
   CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
   pdc::addSweepOptions(*sweepCommand, sweep);
@@ -68,6 +73,7 @@ int run(int argc, char** argv) {
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
   if (renderCommand->parsed()) pdc::runRender(render);
   if (decimateCommand->parsed()) pdc::runDecimate(decimate);
+  if (clusterCommand->parsed()) pdc::runCluster(cluster);
   if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/mesh_request.h"
+#include "requests/mesh_request.h"
 
 namespace pdc {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "commands/mesh_request.h"
+#include "requests/mesh_request.h"
 
 namespace pdc {
 

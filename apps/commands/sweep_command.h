@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "commands/sweep_request.h"
+#include "requests/sweep_request.h"
 
 namespace pdc {
 

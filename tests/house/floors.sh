@@ -13,12 +13,12 @@ readonly ground=-1 apps=10
 # By folder within a floor. Rooms of one rank do not know each other.
 declare -A room_of=(
   [mesh]=0 [mesh/polygons]=1 [mesh/intersections]=1 [mesh/reports]=2
-  [simplify]=0 [simplify/decimation]=1
+  [simplify]=0 [simplify/clustering]=1 [simplify/decimation]=1
   [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/vdb]=2
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
   [field]=0 [field/primitives]=1 [field/operators]=1
   [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/scene]=2 [io]=4
-  [apps/terminal]=0 [apps/files]=1 [apps/commands]=2 [apps]=3
+  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/commands]=3 [apps]=4
 )
 
 # Sets `floor`, `room` and `rank` to those of a path below include/pdc or src, or of the text of an #include: by its
@@ -31,7 +31,7 @@ find_place() {
     floor=$ground
     room=ground
     return
-  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == commands ]]; then
+  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == commands ]]; then
     floor=$apps
     [[ "$top" == apps ]] || room=apps/$folder
   elif [[ -n "${floor_of[$top]-}" ]]; then

@@ -6,18 +6,9 @@
 
 #include "pdc/mesh/mesh.h"
 #include "pdc/monitor.h"
+#include "pdc/simplify/quadric_kind.h"
 
 namespace pdc {
-
-/// What the error of a vertex is measured by (Trettner & Kobbelt 2020, section 3). All are summed over the faces at a
-/// vertex and, but for the triangle quadrics, weighed by area.
-enum class QuadricKind {
-  kPlane,                  ///< Squared distance to the planes of the faces (Garland & Heckbert 1997).
-  kTriangle,               ///< The same, weighed by the square of the area.
-  kProbabilisticPlane,     ///< Its expectation where normals have noise, and points if that is known.
-  kProbabilisticTriangle,  ///< Its expectation where corners have noise.
-  kPoint,                  ///< Squared distance to the vertices: what is left of a plane where noise is all there is.
-};
 
 /// Where an edge's vertex goes.
 enum class CollapsePlacement {
@@ -88,7 +79,8 @@ struct DecimateReport {
 /// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.
 /// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh with a face that names a
-/// vertex that does not exist; Cancelled. Progress: "decimate". Memory: some 150 bytes per triangle besides the meshes.
+/// vertex that does not exist; Cancelled. Progress: "decimate".
+/// Memory: some 250 bytes per triangle besides the meshes.
 [[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
                             const Monitor& monitor = {});
 

@@ -21,27 +21,26 @@
 namespace pdc::detail {
 namespace {
 
-constexpr std::size_t kTitleBytes = 80, kHeaderBytes = 84, kFacetBytes = 50;
-
 std::size_t announcedFacets(std::string_view bytes) {
   std::uint32_t facets = 0;
-  if (bytes.size() >= kHeaderBytes) std::memcpy(&facets, bytes.data() + kTitleBytes, sizeof(facets));
+  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&facets, bytes.data() + kStlTitleBytes, sizeof(facets));
   return facets;
 }
 
 /// A text has no zeros; a title may have none either, but the count of facets after it has, up to 16 million.
 bool hasBinaryTitle(std::string_view bytes) {
-  return bytes.substr(0, kHeaderBytes).find('\0') != std::string_view::npos;
+  return bytes.substr(0, kStlHeaderBytes).find('\0') != std::string_view::npos;
 }
 
-std::size_t binarySize(std::string_view bytes) { return kHeaderBytes + announcedFacets(bytes) * kFacetBytes; }
+std::size_t binarySize(std::string_view bytes) { return kStlHeaderBytes + announcedFacets(bytes) * kStlFacetBytes; }
 
 /// Three corners per facet, after its normal.
 Buffer<Vec3f> binaryCorners(std::string_view bytes) {
   const std::size_t facets = announcedFacets(bytes);
   Buffer<Vec3f> corners(3 * facets);
   tbb::parallel_for(std::size_t{0}, facets, [&](std::size_t i) {
-    std::memcpy(&corners[3 * i], bytes.data() + kHeaderBytes + i * kFacetBytes + sizeof(Vec3f), 3 * sizeof(Vec3f));
+    std::memcpy(&corners[3 * i], bytes.data() + kStlHeaderBytes + i * kStlFacetBytes + sizeof(Vec3f),
+                3 * sizeof(Vec3f));
   });
   return corners;
 }
@@ -49,7 +48,7 @@ Buffer<Vec3f> binaryCorners(std::string_view bytes) {
 /// \param bytes as many as the header announces, or more.
 ParsedMesh readBinary(std::string_view bytes, const Vec3d& shift) {
   ParsedMesh parsed{.mesh = weld(binaryCorners(bytes)), .narrowing = {}, .warnings = {}};
-  parsed.mesh.origin = originInHeader(bytes.substr(0, kTitleBytes)).value_or(Vec3d{0, 0, 0}) + shift;
+  parsed.mesh.origin = originInHeader(bytes.substr(0, kStlTitleBytes)).value_or(Vec3d{0, 0, 0}) + shift;
   if (bytes.size() > binarySize(bytes))
     parsed.warnings.push_back(fmt::format("{} bytes after the last of {} facets are not read",
                                           bytes.size() - binarySize(bytes), announcedFacets(bytes)));
@@ -159,7 +158,7 @@ ParsedMesh readStl(std::span<char> bytes, const Vec3d& shift) {
     return TextReader(view, shift).read();
   }
   if (!hasBinaryTitle(view)) throw Error("not an STL file: a text without lines that begin with solid and facet");
-  if (view.size() < kHeaderBytes) throw Error(fmt::format("{} bytes are too few for an STL file", view.size()));
+  if (view.size() < kStlHeaderBytes) throw Error(fmt::format("{} bytes are too few for an STL file", view.size()));
   if (view.size() > binarySize(view) && announcedFacets(view) > 0) return readBinary(view, shift);
   throw Error(fmt::format("{} facets make {} bytes, but the file has {}", announcedFacets(view), binarySize(view),
                           view.size()));

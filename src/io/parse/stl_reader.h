@@ -1,11 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
 #include "io/parse/parsed_mesh.h"
 
 namespace pdc::detail {
+
+/// A binary file begins with a title and the number of its facets.
+inline constexpr std::size_t kStlTitleBytes = 80, kStlHeaderBytes = 84;
+
+/// A facet of a binary file: its normal, three corners and two bytes.
+inline constexpr std::size_t kStlFacetBytes = 50;
 
 /// Whether the bytes are as many as the facets announced in the header of a binary file take; there is one at least.
 [[nodiscard]] bool isExactBinaryStl(std::string_view bytes);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "commands/mesh_request.h"
 #include "pdc/study/sweep.h"
+#include "requests/mesh_request.h"
 
 namespace pdc {
 

@@ -1,4 +1,4 @@
-#include "commands/mesh_request.h"
+#include "requests/mesh_request.h"
 
 #include <fmt/format.h>
 

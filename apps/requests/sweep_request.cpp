@@ -1,4 +1,4 @@
-#include "commands/sweep_request.h"
+#include "requests/sweep_request.h"
 
 #include <fmt/format.h>
 
