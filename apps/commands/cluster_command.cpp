@@ -12,6 +12,7 @@
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/cluster_file.h"
 #include "pdc/io/mesh/mesh_writer.h"
+#include "requests/quadric_words.h"
 #include "terminal/busy_sign.h"
 #include "terminal/choice_option.h"
 #include "terminal/interrupt.h"
@@ -24,12 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Choices<QuadricKind> kKinds{{"plane", QuadricKind::kPlane},
-                                  {"triangle", QuadricKind::kTriangle},
-                                  {"probabilistic-plane", QuadricKind::kProbabilisticPlane},
-                                  {"probabilistic-triangle", QuadricKind::kProbabilisticTriangle},
-                                  {"point", QuadricKind::kPoint}};
-
 /// What one run did, as far as the library does not say it. Seconds are wall-clock time.
 struct ClusterRun {
   ClusterOptions options;
@@ -39,18 +34,12 @@ struct ClusterRun {
   std::vector<std::string> warnings;
 };
 
-std::string wordOf(QuadricKind kind) {
-  for (const auto& [word, other] : kKinds)
-    if (other == kind) return word;
-  return "";
-}
-
 Json toJson(const ClusterRequest& request, const ClusterRun& run) {
   const ClusterReport& r = run.report;
   return {{"input", request.input.string()},
           {"output", request.output.string()},
           {"cell", run.options.cell},
-          {"quadric", wordOf(run.options.quadric)},
+          {"quadric", wordOf(kQuadricWords, run.options.quadric)},
           {"sigma_n", run.options.sigmaNormal},
           {"sigma_p", run.options.sigmaPosition},
           {"triangles_before", r.trianglesBefore},
@@ -130,7 +119,7 @@ void addClusterOptions(CLI::App& command, ClusterRequest& request) {
       "a number > 0", "Edge of the cells, each of which becomes one vertex, in\nworld units (required)")
       ->type_name("H")
       ->group(clustering);
-  addChoice(command, "--quadric", options.quadric, kKinds,
+  addChoice(command, "--quadric", options.quadric, kQuadricWords,
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")
       ->type_name("KIND")
       ->group(clustering);

@@ -11,6 +11,7 @@
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/triangulate_polygons.h"
+#include "requests/quadric_words.h"
 #include "terminal/busy_sign.h"
 #include "terminal/choice_option.h"
 #include "terminal/interrupt.h"
@@ -23,11 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Choices<QuadricKind> kQuadrics{{"plane", QuadricKind::kPlane},
-                                     {"triangle", QuadricKind::kTriangle},
-                                     {"probabilistic-plane", QuadricKind::kProbabilisticPlane},
-                                     {"probabilistic-triangle", QuadricKind::kProbabilisticTriangle},
-                                     {"point", QuadricKind::kPoint}};
 const Choices<CollapsePlacement> kPlacements{{"minimizer", CollapsePlacement::kMinimizer},
                                              {"subset", CollapsePlacement::kSubset}};
 
@@ -38,13 +34,6 @@ struct DecimateRun {
   double secondsRead = 0, secondsDecimate = 0, secondsWrite = 0;
   std::vector<std::string> warnings;
 };
-
-template <typename Value>
-std::string wordOf(const Choices<Value>& choices, Value value) {
-  for (const auto& [word, other] : choices)
-    if (other == value) return word;
-  return "";
-}
 
 /// A number, or `auto` for the mesh's own.
 void addFromMesh(CLI::App& command, const std::string& name, std::optional<double>& target, double most,
@@ -64,7 +53,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
   const DecimateReport& r = run.report;
   return {{"input", request.input.string()},
           {"output", request.output.string()},
-          {"quadric", wordOf(kQuadrics, request.options.quadric)},
+          {"quadric", wordOf(kQuadricWords, request.options.quadric)},
           {"placement", wordOf(kPlacements, request.options.placement)},
           {"faces_before", r.facesBefore},
           {"faces", r.facesAfter},
@@ -137,7 +126,7 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       ->type_name("R")
       ->group(target);
   const auto quadrics = "Quadrics";
-  addChoice(command, "--quadric", options.quadric, kQuadrics,
+  addChoice(command, "--quadric", options.quadric, kQuadricWords,
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")
       ->type_name("KIND")
       ->group(quadrics);

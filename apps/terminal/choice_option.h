@@ -11,6 +11,14 @@ namespace pdc {
 template <typename Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
+/// The word for a value, which has one.
+template <typename Value>
+[[nodiscard]] std::string wordOf(const Choices<Value>& choices, Value value) {
+  for (const auto& [word, other] : choices)
+    if (other == value) return word;
+  return "";
+}
+
 /// An option that takes one of these words. Another one is a usage error that lists them.
 template <typename Value, typename Target>
 CLI::Option* addChoice(CLI::App& command, const std::string& name, Target& target, const Choices<Value>& choices,

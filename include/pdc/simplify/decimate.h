@@ -80,7 +80,7 @@ struct DecimateReport {
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.
 /// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh with a face that names a
 /// vertex that does not exist; Cancelled. Progress: "decimate".
-/// Memory: some 250 bytes per triangle besides the meshes.
+/// Memory: some 300 bytes per triangle besides the meshes.
 [[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
                             const Monitor& monitor = {});
 

@@ -17,8 +17,8 @@
 namespace pdc {
 namespace {
 
-/// σn where a mesh has no noise: keeps vertices of flat parts apart. With ten times as much the faces of solids come
-/// out twice as far from them, with a tenth half as regular.
+/// σn where a mesh has no noise: keeps vertices of flat parts apart. At 0.001 the faces of the fan disk come out 1.6
+/// times as far from it, at 0.01 five times.
 constexpr double kLeastSigma = 1e-4;
 
 /// Where noise is well below this, in mean edge lengths, it is what sampling does to clean surfaces: 0.02 to 0.04 on

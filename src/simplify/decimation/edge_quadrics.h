@@ -7,7 +7,7 @@
 namespace pdc::detail {
 
 /// How strongly vertices are drawn to the plane on which they keep the volume, relative to the faces' own planes. With
-/// 0 means of distances are 2 to 8 % more, with 10 the farthest thousandth is up to 4 % farther.
+/// 0 means of distances are 1 to 4 % more, with 10 the farthest thousandth is up to 4 % farther.
 inline constexpr double kVolumeWeight = 1;
 
 /// No vertex goes farther from the middle of its edge than this, in lengths of the edge: the planes of nearly flat
