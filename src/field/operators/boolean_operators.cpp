@@ -33,7 +33,8 @@ struct Unite {
   static constexpr double kBulge = -1, kSign = 1;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   static bool takesOther(double value, double other) {
-    return (other < value) | std::isnan(value) | isLowerZero(other, value);
+    const bool isNan = std::isnan(value), isLower = isLowerZero(other, value);
+    return (other < value) | isNan | isLower;
   }
   static double limit(double limit, Interval range) { return std::min(limit, range.hi); }
   static bool beyond(double limit, Interval range) { return range.lo > limit; }
@@ -48,12 +49,16 @@ struct Largest {
 struct Intersect : Largest {
   static constexpr double kSign = 1;
   static bool takesOther(double value, double other) {
-    return (other > value) | std::isnan(other) | isLowerZero(value, other);
+    const bool isNan = std::isnan(other), isLower = isLowerZero(value, other);
+    return (other > value) | isNan | isLower;
   }
 };
 struct Subtract : Largest {
   static constexpr double kSign = -1;
-  static bool takesOther(double value, double other) { return (other > value) | isLowerZero(value, other); }
+  static bool takesOther(double value, double other) {
+    const bool isLower = isLowerZero(value, other);
+    return (other > value) | isLower;
+  }
 };
 
 /// Folds the operands with min or max, rounded off where two values differ by less than the radius k:
