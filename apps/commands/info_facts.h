@@ -13,7 +13,7 @@ namespace pdc {
 /// \throws Error for files that cannot be read.
 [[nodiscard]] nlohmann::ordered_json gatherFacts(const std::filesystem::path& path);
 
-/// The same of a mesh that has been read, without the file's name.
+/// Facts about a mesh that has been read, without the file's name.
 [[nodiscard]] nlohmann::ordered_json meshFileFacts(const MeshFile& file);
 
 /// What the report on a mesh says, with its origin unless that is zero, and what the reader warned of.

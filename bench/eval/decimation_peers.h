@@ -28,7 +28,7 @@ struct DecimationPeer {
   Decimated (*decimate)(const Mesh& mesh, std::size_t targetFaces);
 };
 
-/// Those that were there when this was built.
+/// Lists the peers that were there when this was built.
 [[nodiscard]] std::vector<DecimationPeer> decimationPeers();
 /// The names of the others.
 [[nodiscard]] std::vector<std::string> missingDecimationPeers();

@@ -14,9 +14,9 @@
 #include "mesh/mesh_checks.h"
 #include "pdc/math/triangle_quadric.h"
 #include "simplify/clustering/cell_grid.h"
-#include "simplify/clustering/cell_numbers.h"
 #include "simplify/clustering/cell_sums.h"
 #include "simplify/clustering/clean_faces.h"
+#include "simplify/clustering/key_numbers.h"
 #include "simplify/clustering/representative.h"
 
 namespace pdc {
@@ -105,10 +105,10 @@ struct Clustering::State {
 
   ClusterOptions options;
   detail::CellGrid grid;
-  detail::CellNumbers numbers;
+  detail::KeyNumbers numbers;
   detail::CellSumsList cells;
   Buffer<Triangle> faces;
-  std::uint64_t lastKey = detail::CellNumbers::kNoKey;
+  std::uint64_t lastKey = detail::KeyNumbers::kNoKey;
   std::uint32_t lastNumber = 0;
   std::size_t given = 0, nonFinite = 0;
 };

@@ -208,7 +208,7 @@ Decimation::Candidates Decimation::cheapest(std::size_t count) const {
     candidates.push_back({mCosts[i], hashOf(a, b), a, b});
   }
   tbb::parallel_sort(candidates.begin(), candidates.end());
-  // Of equal costs there may be any number.
+  // Any number of edges may cost the same.
   const bool all = most == kNever && candidates.size() <= 2 * count;
   if (candidates.size() > 2 * count) candidates.resize(2 * count);
   return {std::move(candidates), all};
@@ -220,7 +220,7 @@ std::size_t Decimation::facesAt(std::uint32_t a, std::uint32_t b) const {
   return count;
 }
 
-/// Those that may be collapsed and touch none that is cheaper.
+/// Chooses edges that may be collapsed and touch none that is cheaper.
 std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& candidates) {
   const CollapseChecks checks(mStars, mSurface.positions, mAreas, mRule.leastCosine);
   const auto round = static_cast<std::uint32_t>(mRounds);

@@ -84,7 +84,7 @@ class Decimation {
   std::vector<Quadric<double>> mAccumulated;
   Buffer<float> mCosts;  ///< By corner: of the edge that leaves the vertex there; infinite if it is another's.
   std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a chosen collapse last touched it.
-  std::vector<std::uint32_t> mChanged;  ///< The same of collapses that were done; only where it has to be sound.
+  std::vector<std::uint32_t> mChanged;  ///< By vertex, the round in which one was done; only where it has to be sound.
   std::vector<std::uint32_t> mBecame;
   CollapseRule mCollapse;
   /// By the ends of an edge, the round in which its collapse was refused. It waits until a collapse touches an end.

@@ -125,7 +125,8 @@ class SurfaceFit {
     });
   }
 
-  // Of squares over a triangle, a twelfth of the corners' and three quarters of the centroid's are the mean.
+  // The mean of a square over a triangle is a twelfth of those at its corners and three quarters of that at its
+  // centroid.
 
   [[nodiscard]] Sample vertexSample(std::size_t v, const Vec3d& vectorArea) const {
     return {mGiven.positions[v], vectorArea * (1.0 / 12), rootOf(static_cast<std::uint32_t>(v)), kNone, {}};

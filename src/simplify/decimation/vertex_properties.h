@@ -16,7 +16,7 @@ class InterpolatedProperties {
   /// Gives vertex a what lies between it and b, at `share` of the way; whole numbers are rounded to nearest. Calls for
   /// different a may run at the same time, if none reads another's a.
   void blend(std::uint32_t a, std::uint32_t b, double share);
-  /// Those of some vertices, in the order given.
+  /// What some vertices have, in the order given.
   [[nodiscard]] std::vector<VertexProperty> of(std::span<const std::uint32_t> vertices) const;
 
  private:

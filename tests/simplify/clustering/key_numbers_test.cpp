@@ -1,4 +1,4 @@
-#include "simplify/clustering/cell_numbers.h"
+#include "simplify/clustering/key_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 namespace pdc::detail {
 namespace {
 
-TEST(CellNumbers, NumbersKeysInTheOrderOfTheirAppearance) {
-  CellNumbers numbers;
+TEST(KeyNumbers, NumbersKeysInTheOrderOfTheirAppearance) {
+  KeyNumbers numbers;
   std::unordered_map<std::uint64_t, std::uint32_t> expected;
   std::mt19937_64 engine(3);
   for (int i = 0; i < 100'000; ++i) {

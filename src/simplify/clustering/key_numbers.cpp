@@ -1,4 +1,4 @@
-#include "simplify/clustering/cell_numbers.h"
+#include "simplify/clustering/key_numbers.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace pdc::detail {
 
-std::uint32_t CellNumbers::insert(std::uint64_t key, std::size_t slot) {
+std::uint32_t KeyNumbers::insert(std::uint64_t key, std::size_t slot) {
   constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
   if (mSize == kMost) throw Error(fmt::format("the triangles meet more than {} cells: choose larger ones", kMost));
   mSlots[slot] = {key, mSize++};
@@ -17,7 +17,7 @@ std::uint32_t CellNumbers::insert(std::uint64_t key, std::size_t slot) {
   return mSize - 1;
 }
 
-void CellNumbers::grow() {
+void KeyNumbers::grow() {
   const std::vector<Slot> old = std::exchange(mSlots, std::vector<Slot>(2 * mSlots.size()));
   --mShift;
   for (const Slot& slot : old) {

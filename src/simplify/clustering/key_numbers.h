@@ -7,9 +7,9 @@
 namespace pdc::detail {
 
 /// Numbers keys from 0 on, in the order in which they first appear: a hash table with open addressing.
-class CellNumbers {
+class KeyNumbers {
  public:
-  CellNumbers() : mSlots(kFirstSlots) {}
+  KeyNumbers() : mSlots(kFirstSlots) {}
 
   [[nodiscard]] std::uint32_t size() const { return mSize; }
 
