@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/json_file.h"
+#include "files/mesh_file.h"
 #include "parallel/machine_memory.h"
 #include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
@@ -154,11 +155,7 @@ void runCluster(const ClusterRequest& request) {
     run.warnings.push_back(warning);
     if (!request.quiet) printWarning(warning);
   }
-  {
-    const ExitOnInterrupt scope;
-    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
-    run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
-  }
+  run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);
   if (!request.quiet && request.json != "-") printSummary(request, run);

@@ -197,11 +197,7 @@ void runDecimate(const DecimateRequest& request) {
     run.warnings.push_back(warning);
     if (!request.quiet) printWarning(warning);
   }
-  {
-    const ExitOnInterrupt scope;
-    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
-    run.bytesWritten = writeMesh(mesh, request.output, {.ascii = request.ascii});
-  }
+  run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);
   if (!request.quiet && request.json != "-") printSummary(request, run);

@@ -12,6 +12,7 @@
 #include "commands/json_report.h"
 #include "extract/contour_memory.h"
 #include "files/json_file.h"
+#include "files/mesh_file.h"
 #include "io/file/suffix.h"
 #include "mesh/components.h"
 #include "parallel/stopwatch.h"
@@ -201,12 +202,8 @@ void runMesh(const MeshRequest& request) {
   run.origin = mesh.origin;
 
   detail::Stopwatch stopwatch;
-  {
-    const ExitOnInterrupt scope;
-    const BusySign sign(!request.quiet, "writing " + request.output.filename().string());
-    run.bytesWritten =
-        writeMesh(mesh, request.output, {.ascii = request.ascii, .doublePrecision = request.doublePrecision});
-  }
+  run.bytesWritten = writeMeshFile(mesh, request.output,
+                                   {.ascii = request.ascii, .doublePrecision = request.doublePrecision}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   run.secondsTotal = total.lap();
 

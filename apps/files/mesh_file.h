@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc {
@@ -16,5 +17,9 @@ struct MeshFile {
 
 /// Reads a mesh and puts the warnings on standard error, unless `quiet`. \throws Error.
 [[nodiscard]] MeshFile readMeshFile(const std::filesystem::path& path, bool quiet = false);
+
+/// Writes a mesh, with a sign that it is at work unless `quiet`. \returns bytes written. \throws Error.
+std::size_t writeMeshFile(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                          bool quiet);
 
 }  // namespace pdc

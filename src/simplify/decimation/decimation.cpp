@@ -114,11 +114,11 @@ void Decimation::look() {
 /// Mixes what the faces there are say with what those given said.
 void Decimation::remember() {
   const std::size_t size = mQuadrics.size();
-  if (mAccumulated.empty()) {
-    mAccumulated.resize(size);
-    for (std::size_t v = 0; v < size; ++v) mAccumulated[v] = mQuadrics[v].q;
-  }
+  const bool first = mAccumulated.empty();
+  if (first) mAccumulated.resize(size);
   forEachInParallel(size, 1024, [&](std::size_t v) {
+    if (mStars[static_cast<std::uint32_t>(v)].empty()) return;
+    if (first) mAccumulated[v] = mQuadrics[v].q;
     mQuadrics[v].q = mQuadrics[v].q * (1 - mRule.memory) + mAccumulated[v] * mRule.memory;
   });
 }
