@@ -1,34 +1,18 @@
 #include "mesh/nearest_triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "mesh/faces.h"
+#include "mesh/point_triangle.h"
 
 namespace pdc::detail {
 namespace {
 
-double squaredToSegment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d ab = b - a;
-  const double l = dot(ab, ab);
-  const double t = l > 0 ? std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : 0;
-  const Vec3d d = p - a - ab * t;
-  return dot(d, d);
-}
-
-double squaredToTriangle(const Vec3d& p, const TriangleCorners& corners) {
-  const std::array<Vec3d, 3> v{vecCast<double>(corners[0]), vecCast<double>(corners[1]), vecCast<double>(corners[2])};
-  const Vec3d n = cross(v[1] - v[0], v[2] - v[0]);
-  const double area = dot(n, n);
-  bool above = area > 0;
-  for (int k = 0; k < 3 && above; ++k) above = dot(cross(n, v[(k + 1) % 3] - v[k]), p - v[k]) >= 0;
-  if (above) {
-    const double h = dot(n, p - v[0]);
-    return h * h / area;
-  }
-  return std::min({squaredToSegment(p, v[0], v[1]), squaredToSegment(p, v[1], v[2]), squaredToSegment(p, v[2], v[0])});
+TrianglePoints points(const Mesh& mesh, std::uint32_t t) {
+  const TriangleCorners c = corners(mesh, triangle(mesh, t));
+  return {vecCast<double>(c[0]), vecCast<double>(c[1]), vecCast<double>(c[2])};
 }
 
 Buffer<std::uint32_t> finiteTriangles(const Mesh& mesh) {
@@ -69,7 +53,7 @@ NearestTriangles::NearestTriangles(const Mesh& mesh)
 NearestTriangle NearestTriangles::find(const Vec3d& p, std::uint32_t guess) const {
   NearestTriangle nearest;
   const auto visit = [&](std::uint32_t t) {
-    const double squared = squaredToTriangle(p, corners(mMesh, triangle(mMesh, t)));
+    const double squared = squaredToTriangle(p, points(mMesh, t));
     if (squared < nearest.squared) nearest = {t, squared};
   };
   if (guess != NearestTriangle::kNone) visit(guess);
@@ -81,10 +65,9 @@ NearestTriangle NearestTriangles::find(const Vec3d& p, const Vec3d& normal, std:
   NearestTriangle nearest;
   double cosine = -3, nearer = 0, reach = nearest.squared;  // Squares, within which distances differ by rounding.
   const auto visit = [&](std::uint32_t t) {
-    const TriangleCorners c = corners(mMesh, triangle(mMesh, t));
-    const double squared = squaredToTriangle(p, c);
+    const double squared = squaredToTriangle(p, points(mMesh, t));
     if (!(squared < reach)) return;
-    const double itsCosine = cosineTo(normal, c);
+    const double itsCosine = cosineTo(normal, corners(mMesh, triangle(mMesh, t)));
     if (squared < nearer || itsCosine > cosine || nearest.number == NearestTriangle::kNone) {
       nearest.number = t;
       cosine = itsCosine;

@@ -16,11 +16,21 @@ enum class CollapsePlacement {
   kSubset,     ///< To that end where they are less, so that the vertices are a subset of those given.
 };
 
+/// A length, above 0 and finite.
+struct MeshLength {
+  double value;
+  bool inMeanEdges = false;  ///< In mean edge lengths of the mesh given; otherwise in world units.
+};
+
 struct DecimateOptions {
   /// How many triangles there are to be at most; and as a share, in (0, 1], of those given. The larger one counts if
-  /// both are set, and one must be.
+  /// both are set.
   std::optional<std::size_t> faces{};
   std::optional<double> ratio{};
+  /// No point of the result is farther than this from the surface given, and no vertex of the latter's faces farther
+  /// from the result: every collapse that would break it is refused. Without a number of faces or a ratio there are as
+  /// few triangles as come out then. One of the three must be set.
+  std::optional<MeshLength> error{};
   QuadricKind quadric = QuadricKind::kProbabilisticPlane;
   CollapsePlacement placement = CollapsePlacement::kMinimizer;
   /// Standard deviation of each component of the unit normals, 0 or more; from the mesh's own noise if not set.
@@ -40,13 +50,14 @@ struct DecimateOptions {
   /// takes several times as long.
   bool sound = false;
   /// Whether the vertices left are moved to where their faces lie nearest to the surface given, in the least squares;
-  /// those of kSubset never are.
+  /// those of kSubset never are, nor is anything where there is a bound on the error.
   bool fit = true;
 };
 
 /// Why decimation ended.
 enum class DecimateEnd {
   kReached,         ///< There are no more faces than asked for.
+  kError,           ///< Further collapses would go farther than the error allows, or are refused as below.
   kNoCollapseLeft,  ///< Each further collapse would change the topology, turn a face too far or move what is locked.
 };
 
@@ -59,9 +70,11 @@ struct DecimateReport {
   double sigmaNormal = 0;  ///< As used.
   double sigmaPosition = 0;
   double memory = 0;
+  double error = 0;  ///< The bound in world units; 0 if there is none.
   std::size_t rounds = 0, collapses = 0;
   std::size_t limitedMoves = 0;          ///< Collapses whose minimum was too far away to go there.
   std::size_t refusedIntersections = 0;  ///< Collapses that would have made faces intersect, where that was asked for.
+  std::size_t refusedErrors = 0;         ///< Collapses that would have broken the bound on the error.
   std::size_t degenerateFaces = 0;       ///< Faces given that name a vertex twice or have no finite corners: dropped.
   std::size_t nonManifoldVertices = 0;   ///< Vertices given about which the surface is none: they stay as they are.
 };

@@ -36,7 +36,8 @@ void check(const DecimateOptions& o) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(fmt::format("decimate: {}", what));
   };
-  require(o.faces || o.ratio, "neither a number of faces nor a ratio is set");
+  require(o.faces || o.ratio || o.error, "neither a number of faces nor a ratio nor an error is set");
+  require(!o.error || (o.error->value > 0 && std::isfinite(o.error->value)), "the error is not above 0");
   require(!o.ratio || (*o.ratio > 0 && *o.ratio <= 1), "the ratio is not above 0 and at most 1");
   require(!o.sigmaNormal || (*o.sigmaNormal >= 0 && std::isfinite(*o.sigmaNormal)), "sigma_n is not 0 or more");
   require(!o.sigmaPosition || (*o.sigmaPosition >= 0 && std::isfinite(*o.sigmaPosition)), "sigma_p is not 0 or more");
@@ -123,6 +124,11 @@ std::size_t targetOf(const DecimateOptions& options, std::size_t faces) {
   return std::max(asShare, options.faces.value_or(0));
 }
 
+std::optional<double> errorOf(const DecimateOptions& options, double meanEdge) {
+  if (!options.error) return std::nullopt;
+  return options.error->value * (options.error->inMeanEdges ? meanEdge : 1);
+}
+
 }  // namespace
 
 Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report, const Monitor& monitor) {
@@ -150,29 +156,34 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
     chooseNoise(detail::meshNoise(stars, surface.positions), options, facts);
   }
 
-  detail::GivenSurface given{surface.positions, surface.faces, {}};
+  const detail::GivenSurface given{surface.positions, surface.faces};
   detail::InterpolatedProperties properties(mesh);
   const detail::DecimationRule rule{targetOf(options, facts.facesBefore),
+                                    errorOf(options, facts.meanEdge),
                                     {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
                                     facts.memory,
                                     options.placement == CollapsePlacement::kSubset,
                                     std::cos(options.maxTurn * std::numbers::pi / 180),
                                     options.sound};
-  detail::Decimation decimation(surface, properties, rule);
+  detail::Decimation decimation(surface, given, properties, rule);
   decimation.run(monitor);
-  if (options.placement == CollapsePlacement::kMinimizer && options.fit) {
-    given.became = decimation.became();
-    detail::fitSurface(surface, given, {rule.leastCosine, facts.sigmaNormal, options.sound}, monitor);
+  if (options.placement == CollapsePlacement::kMinimizer && options.fit && !options.error) {
+    detail::fitSurface(surface, given, {decimation.became(), rule.leastCosine, facts.sigmaNormal, options.sound},
+                       monitor);
   }
 
+  facts.refusedIntersections = decimation.intersectionRefusals();
+  facts.refusedErrors = decimation.errorRefusals();
   Mesh result = meshOf(surface, properties, mesh);
   facts.facesAfter = result.triangles.size();
   facts.verticesAfter = result.positions.size();
-  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached : DecimateEnd::kNoCollapseLeft;
+  facts.error = rule.error.value_or(0);
+  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached
+              : facts.refusedErrors > 0            ? DecimateEnd::kError
+                                                   : DecimateEnd::kNoCollapseLeft;
   facts.rounds = decimation.rounds();
   facts.collapses = decimation.collapses();
   facts.limitedMoves = decimation.limitedMoves();
-  facts.refusedIntersections = decimation.refusals();
   return result;
 }
 

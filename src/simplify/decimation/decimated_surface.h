@@ -15,4 +15,10 @@ struct DecimatedSurface {
   std::vector<std::uint8_t> locked;  ///< By vertex, whether it stays where it is.
 };
 
+/// The surface before it was decimated.
+struct GivenSurface {
+  std::vector<Vec3d> positions;
+  Buffer<Triangle> faces;
+};
+
 }  // namespace pdc::detail

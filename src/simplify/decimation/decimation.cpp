@@ -48,32 +48,36 @@ void forEachWithSimd(std::size_t n, std::size_t grain, const Visit& visit) {
   });
 }
 
+std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
+
 std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
-  std::uint64_t h = (std::uint64_t{a} << 32 | b) * 0x9E3779B97F4A7C15u;  // Steele, Lea & Flood 2014, SplitMix.
+  std::uint64_t h = edgeKey(a, b) * 0x9E3779B97F4A7C15u;  // Steele, Lea & Flood 2014, SplitMix.
   h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
   return static_cast<std::uint32_t>(h >> 32);
 }
 
 }  // namespace
 
-Decimation::Decimation(DecimatedSurface& surface, InterpolatedProperties& properties, const DecimationRule& rule)
+Decimation::Decimation(DecimatedSurface& surface, const GivenSurface& given, InterpolatedProperties& properties,
+                       const DecimationRule& rule)
     : mSurface(surface),
+      mGiven(given),
       mProperties(properties),
       mRule(rule),
       mTouched(surface.positions.size(), 0),
-      mChanged(rule.sound ? surface.positions.size() : 0, 0),
+      mChanged(rule.mayRefuse() ? surface.positions.size() : 0, 0),
       mBecame(surface.positions.size()),
       mCollapse(surface.positions, mQuadrics, surface.locked) {
   std::iota(mBecame.begin(), mBecame.end(), 0U);
   mCollapse.classical = rule.quadrics.classical();
   mCollapse.subset = rule.subset;
+  if (rule.error) mTracked.emplace(surface, *rule.error);
 }
 
 void Decimation::run(const Monitor& monitor) {
   const std::size_t before = mSurface.faces.size(), wanted = before - std::min(before, mRule.targetFaces);
   std::size_t least = kLeastOfRound;
-  FacePairs pairs;
-  if (mRule.sound) pairs = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
+  if (mRule.sound) mIntersecting = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
   while (mSurface.faces.size() > mRule.targetFaces) {
     monitor.throwIfStopped();
     ++mRounds;
@@ -84,10 +88,10 @@ void Decimation::run(const Monitor& monitor) {
     const auto [candidates, all] = cheapest(std::max(least, std::min(share, 2 * left)));
     std::vector<ChosenCollapse> chosen = choose(candidates);
     const bool none = chosen.empty();
-    if (mRule.sound) refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));
+    takeOutRefused(chosen, monitor);
     apply(chosen);
     // Where nothing cheap may be collapsed, more is looked at.
-    if (none && all) return;
+    if (none && all && !lookCloser()) return;
     least = none ? 4 * std::max(least, candidates.size()) : kLeastOfRound;
     if (monitor.progress)
       monitor.progress("decimate", static_cast<double>(before - mSurface.faces.size()) / static_cast<double>(wanted));
@@ -129,7 +133,7 @@ EdgeCollapse Decimation::collapseOf(std::uint32_t a, std::uint32_t b) const {
     if (c.next == b || c.previous == b) between += mAreas[c.face].vector;
   EdgeCollapse c = mCollapse.collapse(a, b, between);
   // What is tested has to be what is written.
-  if (mRule.sound) c.place = mSurface.frame.local(mSurface.frame.world(c.place));
+  if (mRule.mayRefuse()) c.place = mSurface.frame.local(mSurface.frame.world(c.place));
   return c;
 }
 
@@ -152,6 +156,7 @@ inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end) {
       // The edge is its lower end's, unless it runs towards that only.
       if (b < a && twin != nullptr) continue;
       if (mSurface.locked[a] != 0 && mSurface.locked[b] != 0) continue;
+      if (isRefused(std::min(a, b), std::max(a, b))) continue;
       if (!mCollapse.inLanes(a, b)) {
         mCosts[corner] = costAlone(corner);
         continue;
@@ -234,7 +239,7 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
     forEachInParallel(size, 64, [&](std::size_t i) {
       const Candidate& c = candidates[first + i];
       to[i].reset();
-      if (touched(c) || isRefused(c.a, c.b) || !checks.keepsTopology(c.a, c.b)) return;
+      if (touched(c) || !checks.keepsTopology(c.a, c.b)) return;
       const EdgeCollapse collapse = collapseOf(c.a, c.b);
       if (checks.keepsFaces(c.a, c.b, collapse.place)) to[i] = collapse;
     });
@@ -252,19 +257,49 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
   return chosen;
 }
 
-void Decimation::refuse(const std::vector<ChosenCollapse>& collapses) {
-  for (const ChosenCollapse& c : collapses) mRefused[{c.a, c.b}] = static_cast<std::uint32_t>(mRounds);
-  mRefusals += collapses.size();
+/// \returns how many there are.
+std::size_t Decimation::refuse(const std::vector<ChosenCollapse>& collapses) {
+  for (const ChosenCollapse& c : collapses) mRefused[edgeKey(c.a, c.b)] = static_cast<std::uint32_t>(mRounds);
+  return collapses.size();
 }
 
 bool Decimation::isRefused(std::uint32_t a, std::uint32_t b) const {
   if (mRefused.empty()) return false;
-  const auto found = mRefused.find({a, b});
+  const auto found = mRefused.find(edgeKey(a, b));
   return found != mRefused.end() && mChanged[a] <= found->second && mChanged[b] <= found->second;
+}
+
+/// From adding up what collapses do to looking at the surface given, which takes far longer and lets more be done.
+/// \returns whether there is anything to look at more closely.
+bool Decimation::lookCloser() {
+  if (!mTracked) return false;
+  mTracked.reset();
+  mBound.emplace(mGiven, mSurface, *mRule.error);
+  mRefused.clear();
+  return true;
+}
+
+/// Takes out collapses after which the surface would not be what it has to be.
+void Decimation::takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor) {
+  if (mTracked) mErrorRefusals += refuse(mTracked->takeOutFar(mStars, chosen));
+  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen));
+  while (mRule.sound) {
+    FacePairs pairs = mIntersecting;
+    const std::size_t refused = refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));
+    mIntersectionRefusals += refused;
+    // Fewer of them may go farther than all.
+    const std::size_t more = mBound && refused > 0 ? refuse(mBound->restrictTo(mStars, chosen)) : 0;
+    mErrorRefusals += more;
+    if (more > 0) continue;
+    mIntersecting = std::move(pairs);
+    break;
+  }
 }
 
 /// Their stars have no face in common, so that they do not see each other.
 void Decimation::apply(const std::vector<ChosenCollapse>& chosen) {
+  if (mTracked) mTracked->accept(mStars, chosen);
+  if (mBound) mBound->accept(mStars);
   std::vector<Vec3d>& p = mSurface.positions;
   forEachInParallel(chosen.size(), 64, [&](std::size_t i) {
     const auto& [a, b, to] = chosen[i];
@@ -282,16 +317,26 @@ void Decimation::apply(const std::vector<ChosenCollapse>& chosen) {
       for (std::uint32_t& v : t) v = vanishes || v == b ? a : v;
     }
   });
-  mSurface.faces.erase(std::remove_if(mSurface.faces.begin(), mSurface.faces.end(),
-                                      [](const Triangle& t) { return t[0] == t[1] && t[1] == t[2]; }),
-                       mSurface.faces.end());
-  if (mRule.sound)
+  removeVanished();
+  if (mRule.mayRefuse())
     for (const ChosenCollapse& c : chosen)
       for (const std::uint32_t v : {c.a, c.b})
         for (const StarCorner& k : mStars[v])
           mChanged[v] = mChanged[k.next] = mChanged[k.previous] = static_cast<std::uint32_t>(mRounds);
   mCollapses += chosen.size();
   for (const ChosenCollapse& c : chosen) mLimitedMoves += c.to.limited;
+}
+
+void Decimation::removeVanished() {
+  std::uint32_t kept = 0;
+  for (std::uint32_t f = 0; f < mSurface.faces.size(); ++f) {
+    const Triangle& t = mSurface.faces[f];
+    if (t[0] == t[1] && t[1] == t[2]) continue;
+    if (mTracked) mTracked->renumber(f, kept);
+    if (mBound) mBound->renumber(f, kept);
+    mSurface.faces[kept++] = t;
+  }
+  mSurface.faces.resize(kept);
 }
 
 }  // namespace pdc::detail

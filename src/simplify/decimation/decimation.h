@@ -2,13 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "pdc/monitor.h"
 #include "simplify/decimation/decimated_surface.h"
 #include "simplify/decimation/edge_collapse.h"
+#include "simplify/decimation/error_bound.h"
+#include "simplify/decimation/new_intersections.h"
+#include "simplify/decimation/tracked_error.h"
 #include "simplify/decimation/vertex_properties.h"
 #include "simplify/decimation/vertex_quadrics.h"
 #include "simplify/vertex_stars.h"
@@ -18,17 +21,22 @@ namespace pdc::detail {
 /// How it is to be done.
 struct DecimationRule {
   std::size_t targetFaces;
+  std::optional<double> error;  ///< In world units: see ErrorBound.
   QuadricRule quadrics;
   double memory;
   bool subset;
   double leastCosine;  ///< See CollapseChecks.
   bool sound;          ///< Whether no face may come to intersect another.
+
+  [[nodiscard]] bool mayRefuse() const { return sound || error; }
 };
 
 /// Collapses edges of a surface in rounds of such as do not touch each other.
 class Decimation {
  public:
-  Decimation(DecimatedSurface& surface, InterpolatedProperties& properties, const DecimationRule& rule);
+  /// \param given the surface as it is now. All must outlive this.
+  Decimation(DecimatedSurface& surface, const GivenSurface& given, InterpolatedProperties& properties,
+             const DecimationRule& rule);
 
   /// Until there are no more faces than wanted, or none may be collapsed. \throws Cancelled.
   void run(const Monitor& monitor);
@@ -38,8 +46,9 @@ class Decimation {
   [[nodiscard]] std::size_t rounds() const { return mRounds; }
   [[nodiscard]] std::size_t collapses() const { return mCollapses; }
   [[nodiscard]] std::size_t limitedMoves() const { return mLimitedMoves; }
-  /// Collapses that would have made faces intersect.
-  [[nodiscard]] std::size_t refusals() const { return mRefusals; }
+  /// Collapses that would have made faces intersect, and such as would have gone too far from the surface given.
+  [[nodiscard]] std::size_t intersectionRefusals() const { return mIntersectionRefusals; }
+  [[nodiscard]] std::size_t errorRefusals() const { return mErrorRefusals; }
 
  private:
   /// An edge that may be collapsed: the corner at its lower end that runs towards the other.
@@ -70,12 +79,16 @@ class Decimation {
   [[nodiscard]] Candidates cheapest(std::size_t count) const;
   [[nodiscard]] EdgeCollapse collapseOf(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<ChosenCollapse> choose(const std::vector<Candidate>& candidates);
+  [[nodiscard]] bool lookCloser();
+  void takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor);
   void apply(const std::vector<ChosenCollapse>& chosen);
-  void refuse(const std::vector<ChosenCollapse>& collapses);
+  void removeVanished();
+  std::size_t refuse(const std::vector<ChosenCollapse>& collapses);
   [[nodiscard]] bool isRefused(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::size_t facesAt(std::uint32_t a, std::uint32_t b) const;
 
   DecimatedSurface& mSurface;
+  const GivenSurface& mGiven;
   InterpolatedProperties& mProperties;
   const DecimationRule mRule;
   VertexStars mStars;
@@ -84,12 +97,15 @@ class Decimation {
   std::vector<Quadric<double>> mAccumulated;
   Buffer<float> mCosts;  ///< By corner: of the edge that leaves the vertex there; infinite if it is another's.
   std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a chosen collapse last touched it.
-  std::vector<std::uint32_t> mChanged;  ///< By vertex, the round in which one was done; only where it has to be sound.
+  std::vector<std::uint32_t> mChanged;  ///< By vertex, the round in which one was done; only where any may be refused.
   std::vector<std::uint32_t> mBecame;
   CollapseRule mCollapse;
   /// By the ends of an edge, the round in which its collapse was refused. It waits until a collapse touches an end.
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> mRefused;
-  std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0, mRefusals = 0;
+  std::unordered_map<std::uint64_t, std::uint32_t> mRefused;
+  std::optional<TrackedError> mTracked;  ///< At first, where there is a bound on the error; then mBound.
+  std::optional<ErrorBound> mBound;
+  FacePairs mIntersecting;  ///< Where the surface has to be sound.
+  std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0, mIntersectionRefusals = 0, mErrorRefusals = 0;
 };
 
 }  // namespace pdc::detail

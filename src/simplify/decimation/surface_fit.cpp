@@ -4,9 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
+#include "mesh/point_triangle.h"
 #include "pdc/math/solvers.h"
 #include "simplify/decimation/new_intersections.h"
 #include "simplify/vertex_stars.h"
@@ -39,40 +39,15 @@ void forEachInParallel(std::size_t n, const Visit& visit) {
   });
 }
 
-/// A point of a triangle, as weights of its corners.
-using Weights = std::array<double, 3>;
-
-/// The point of a triangle nearest to p (Ericson 2005, section 5.1.5).
-Weights nearestPoint(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double t = (d4 - d3) / (d4 - d3 + d5 - d6);
-    return {0, 1 - t, t};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
 constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
 /// A point of the surface given, at a face near to it.
 struct Sample {
   Vec3d place;
-  Vec3d normal;          ///< As long as the area that the point stands for.
-  std::uint32_t vertex;  ///< The one left that a vertex given beside it became.
-  std::uint32_t face;    ///< Of those about that vertex, or kNone.
-  Weights weights;       ///< The face's point nearest to the place.
+  Vec3d normal;             ///< As long as the area that the point stands for.
+  std::uint32_t vertex;     ///< The one left that a vertex given beside it became.
+  std::uint32_t face;       ///< Of those about that vertex, or kNone.
+  TriangleWeights weights;  ///< The face's point nearest to the place.
 };
 
 class SurfaceFit {
@@ -138,7 +113,7 @@ class SurfaceFit {
   }
 
   [[nodiscard]] std::uint32_t rootOf(std::uint32_t v) const {
-    while (mGiven.became[v] != v) v = mGiven.became[v];
+    while (mRule.became[v] != v) v = mRule.became[v];
     return v;
   }
 
@@ -201,7 +176,7 @@ class SurfaceFit {
   [[nodiscard]] const Vec3d& corner(std::uint32_t face, int k) const {
     return mSurface.positions[mSurface.faces[face][k]];
   }
-  [[nodiscard]] Vec3d placeOf(std::uint32_t face, const Weights& w) const {
+  [[nodiscard]] Vec3d placeOf(std::uint32_t face, const TriangleWeights& w) const {
     return corner(face, 0) * w[0] + corner(face, 1) * w[1] + corner(face, 2) * w[2];
   }
 

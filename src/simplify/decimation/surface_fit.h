@@ -8,15 +8,9 @@
 
 namespace pdc::detail {
 
-/// The surface before it was decimated, and which of its vertices took the places of the others.
-struct GivenSurface {
-  std::vector<Vec3d> positions;
-  Buffer<Triangle> faces;
-  std::vector<std::uint32_t> became;  ///< Each vertex, or the one that it was collapsed into.
-};
-
 struct FitRule {
-  double leastCosine;  ///< See CollapseChecks.
+  const std::vector<std::uint32_t>& became;  ///< By vertex given, that into which it was collapsed, or itself.
+  double leastCosine;                        ///< See CollapseChecks.
   double sigmaNormal;  ///< Noise of the normals given: where there is any, vertices stay nearer to where they are.
   bool sound;          ///< See DecimationRule.
 };

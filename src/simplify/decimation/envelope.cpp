@@ -1,0 +1,60 @@
+#include "simplify/decimation/envelope.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "simplify/decimation/coverage.h"
+#include "simplify/vertex_stars.h"
+
+namespace pdc::detail {
+
+/// The surface, as Coverage asks for it.
+class Envelope::Walk {
+ public:
+  Walk(const Envelope& envelope, std::vector<std::uint32_t>* used) : mEnvelope(envelope), mUsed(used) {}
+
+  const Prism& prism(std::uint32_t t) {
+    mPrism = Prism(trianglePoints(mEnvelope.mSurface.positions, mEnvelope.mSurface.triangles[t]));
+    return mPrism;
+  }
+  [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t guess) const {
+    return mEnvelope.mNearest.find(p, guess);
+  }
+  [[nodiscard]] std::uint32_t beyond(std::uint32_t t, int k) const { return mEnvelope.mBeyond[t][k]; }
+  void use(std::uint32_t t) {
+    if (mUsed != nullptr && std::find(mUsed->begin(), mUsed->end(), t) == mUsed->end()) mUsed->push_back(t);
+  }
+
+ private:
+  const Envelope& mEnvelope;
+  std::vector<std::uint32_t>* const mUsed;
+  Prism mPrism;
+};
+
+Envelope::Envelope(const Mesh& surface, double distance)
+    : mSurface(surface), mDistance(distance), mNearest(surface), mBeyond(surface.triangles.size()) {
+  VertexStars stars;
+  stars.build(surface.triangles, surface.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mBeyond.size(), 1024), [&](const auto& r) {
+    for (std::size_t f = r.begin(); f < r.end(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const Triangle& t = surface.triangles[f];
+        const StarCorner* const beyond = cornerAfter(stars[t[k]], t[(k + 1) % 3]);
+        mBeyond[f][k] = beyond != nullptr ? beyond->face : kNone;
+      }
+  });
+}
+
+std::uint32_t Envelope::nearest(const Vec3d& p, std::uint32_t guess) const {
+  const NearestTriangle found = mNearest.find(p, guess);
+  return found.squared <= mDistance * mDistance ? found.number : kNone;
+}
+
+bool Envelope::contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used) const {
+  Walk walk(*this, used);
+  return Coverage<Walk>(walk, mDistance).covers(triangle, near);
+}
+
+}  // namespace pdc::detail

@@ -1,0 +1,299 @@
+#include "simplify/decimation/error_bound.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "simplify/decimation/coverage.h"
+
+namespace pdc::detail {
+namespace {
+
+Mesh worldMesh(const LocalFrame& frame, const std::vector<Vec3d>& positions, const Buffer<Triangle>& faces) {
+  Mesh mesh;
+  mesh.positions.reserve(positions.size());
+  for (const Vec3d& p : positions) mesh.positions.push_back(frame.world(p));
+  mesh.triangles = faces;
+  return mesh;
+}
+
+/// Calls visit(corner) for each face at an edge's ends, once.
+template <typename Visit>
+void forEachChangedFace(const VertexStars& stars, const ChosenCollapse& collapse, const Visit& visit) {
+  for (const StarCorner& c : stars[collapse.a]) visit(c);
+  for (const StarCorner& c : stars[collapse.b])
+    if (c.next != collapse.a && c.previous != collapse.a) visit(c);
+}
+
+bool contains(const std::vector<std::uint32_t>& all, std::uint32_t one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+}  // namespace
+
+/// Some faces left, as Coverage asks for them.
+class ErrorBound::NearFaces {
+ public:
+  void add(std::uint32_t face, const TrianglePoints& corners) {
+    mNumbers.push_back(face);
+    mPrisms.emplace_back(corners);
+    mUsed.push_back(0);
+  }
+  [[nodiscard]] std::size_t size() const { return mNumbers.size(); }
+  /// Forgets those added last.
+  void shrink(std::size_t size) {
+    mNumbers.resize(size);
+    mPrisms.resize(size);
+    mUsed.resize(size);
+  }
+  [[nodiscard]] std::size_t indexOf(std::uint32_t face) const {
+    return static_cast<std::size_t>(std::find(mNumbers.begin(), mNumbers.end(), face) - mNumbers.begin());
+  }
+
+  void forget() { std::fill(mUsed.begin(), mUsed.end(), 0); }
+  [[nodiscard]] Faces used() const {
+    Faces faces;
+    for (std::size_t i = 0; i < mNumbers.size(); ++i)
+      if (mUsed[i] != 0) faces.push_back(mNumbers[i]);
+    return faces;
+  }
+  [[nodiscard]] const TrianglePoints& corners(std::size_t i) const { return mPrisms[i].corners; }
+
+  [[nodiscard]] const Prism& prism(std::uint32_t i) const { return mPrisms[i]; }
+  [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t) const {
+    NearestTriangle nearest;
+    for (std::uint32_t i = 0; i < mPrisms.size(); ++i) {
+      const double squared = squaredToTriangle(p, mPrisms[i].corners);
+      if (squared < nearest.squared) nearest = {i, squared};
+    }
+    return nearest;
+  }
+  [[nodiscard]] std::uint32_t beyond(std::uint32_t, int) const { return kNone; }
+  void use(std::uint32_t i) { mUsed[i] = 1; }
+
+ private:
+  Faces mNumbers;
+  std::vector<Prism> mPrisms;
+  std::vector<std::uint8_t> mUsed;
+};
+
+ErrorBound::ErrorBound(const GivenSurface& given, const DecimatedSurface& surface, double distance)
+    : mSurface(surface),
+      mGiven(worldMesh(surface.frame, given.positions, given.faces)),
+      mEnvelope(mGiven, distance),
+      mFaces(surface.faces),
+      mFaceGiven(surface.faces.size()),
+      mBelow(surface.positions.size(), kNone),
+      mFirstOfFace(surface.faces.size(), kNone),
+      mFirstOfTriangle(given.faces.size(), kNone) {
+  std::iota(mFaceGiven.begin(), mFaceGiven.end(), 0U);
+  findLinks();
+}
+
+void ErrorBound::findLinks() {
+  Mesh now = worldMesh(mSurface.frame, mSurface.positions, mFaces);
+  mPlaces = now.positions;
+  std::vector<std::uint8_t> used(mPlaces.size(), 0);
+  for (const Triangle& t : mFaces)
+    for (const std::uint32_t v : t) used[v] = 1;
+  std::vector<Faces> near(mGiven.triangles.size());
+  {
+    const Envelope about(now, mEnvelope.distance());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size(), 256), [&](const auto& r) {
+      for (std::size_t t = r.begin(); t < r.end(); ++t)
+        about.contains(trianglePoints(mGiven.positions, mGiven.triangles[t]), kNone, &near[t]);
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mPlaces.size(), 256), [&](const auto& r) {
+      for (std::size_t v = r.begin(); v < r.end(); ++v)
+        if (used[v] != 0) mBelow[v] = mEnvelope.nearest(vecCast<double>(mPlaces[v]), kNone);
+    });
+  }
+  mLinks.reserve(near.size() * 2);
+  for (std::uint32_t t = 0; t < near.size(); ++t) link({t, std::move(near[t])});
+}
+
+std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
+  std::vector<std::optional<Change>> found(collapses.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, collapses.size(), 4), [&](const auto& r) {
+    for (std::size_t i = r.begin(); i < r.end(); ++i) found[i] = changeOf(stars, collapses[i]);
+  });
+  std::vector<ChosenCollapse> out, near;
+  mChanges.clear();
+  for (std::size_t i = 0; i < collapses.size(); ++i) {
+    (found[i] ? near : out).push_back(collapses[i]);
+    if (found[i]) mChanges.push_back(std::move(*found[i]));
+  }
+  collapses = std::move(near);
+  const std::vector<ChosenCollapse> more = joinAll(stars, collapses);
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+std::vector<ChosenCollapse> ErrorBound::restrictTo(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
+  std::vector<Change> changes;
+  std::size_t next = 0;
+  for (Change& c : mChanges) {
+    putInto(c.collapse, placeOf(c.collapse.a), placeOf(c.collapse.b));
+    if (next == collapses.size() || collapses[next].a != c.collapse.a || collapses[next].b != c.collapse.b) continue;
+    changes.push_back(std::move(c));
+    ++next;
+  }
+  mChanges = std::move(changes);
+  return joinAll(stars, collapses);
+}
+
+/// Takes out the changes that do not hold beside those before them.
+std::vector<ChosenCollapse> ErrorBound::joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
+  std::vector<ChosenCollapse> out;
+  std::vector<Change> joined;
+  mJoined.clear();
+  collapses.clear();
+  for (Change& c : mChanges) {
+    if (!join(stars, c)) {
+      out.push_back(c.collapse);
+      continue;
+    }
+    const Vec3f place = mSurface.frame.world(c.collapse.to.place);
+    putInto(c.collapse, place, place);
+    collapses.push_back(c.collapse);
+    joined.push_back(std::move(c));
+  }
+  mChanges = std::move(joined);
+  return out;
+}
+
+/// Joins a change to those before it. \returns whether it holds beside them; if not, nothing has changed.
+bool ErrorBound::join(const VertexStars& stars, Change& change) {
+  const bool alone = std::none_of(change.covered.begin(), change.covered.end(),
+                                  [&](const Covered& c) { return mJoined.contains(c.triangle); });
+  std::vector<Covered> covered;
+  if (!alone) {
+    const Faces changed = changedFaces(stars, change.collapse);
+    NearFaces faces = newFaces(stars, change.collapse);
+    for (const Covered& c : change.covered) {
+      const auto before = mJoined.find(c.triangle);
+      if (before == mJoined.end()) continue;
+      covered.push_back({c.triangle, {}});
+      if (!cover(covered.back(), before->second, changed, faces)) return false;
+    }
+  }
+  for (const Covered& c : change.covered) mJoined.try_emplace(c.triangle, c.faces);
+  for (Covered& c : covered) mJoined[c.triangle] = std::move(c.faces);
+  return true;
+}
+
+/// The faces at an edge's ends, by the numbers they were given with.
+ErrorBound::Faces ErrorBound::changedFaces(const VertexStars& stars, const ChosenCollapse& collapse) const {
+  Faces faces;
+  forEachChangedFace(stars, collapse, [&](const StarCorner& c) { faces.push_back(mFaceGiven[c.face]); });
+  return faces;
+}
+
+/// What becomes of those that do not vanish.
+ErrorBound::NearFaces ErrorBound::newFaces(const VertexStars& stars, const ChosenCollapse& collapse) const {
+  NearFaces faces;
+  const Vec3d place = vecCast<double>(mSurface.frame.world(collapse.to.place));
+  forEachChangedFace(stars, collapse, [&](const StarCorner& c) {
+    if (c.next == collapse.b || c.previous == collapse.b) return;
+    faces.add(mFaceGiven[c.face], {place, vecCast<double>(placeOf(c.next)), vecCast<double>(placeOf(c.previous))});
+  });
+  return faces;
+}
+
+/// The triangles given that some faces left are near to, ascending.
+std::vector<std::uint32_t> ErrorBound::trianglesAt(const Faces& faces) const {
+  std::vector<std::uint32_t> triangles;
+  for (const std::uint32_t f : faces)
+    for (std::uint32_t i = mFirstOfFace[f]; i != kNone; i = mLinks[i].nextOfFace)
+      if (mLinks[i].triangle != kNone) triangles.push_back(mLinks[i].triangle);
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+ErrorBound::Faces ErrorBound::facesOf(std::uint32_t triangle) const {
+  Faces faces;
+  for (std::uint32_t i = mFirstOfTriangle[triangle]; i != kNone; i = mLinks[i].nextOfTriangle)
+    faces.push_back(mLinks[i].face);
+  return faces;
+}
+
+/// Finds faces that are near to a triangle given, of the new ones and of those before that do not change.
+bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& changed, NearFaces& faces) const {
+  const std::size_t size = faces.size();
+  std::size_t guess = size;
+  for (const std::uint32_t f : before) {
+    if (!contains(changed, f))
+      faces.add(f, trianglePoints(mPlaces, mFaces[f]));
+    else if (guess == size)
+      guess = faces.indexOf(f);
+  }
+  faces.forget();
+  const TrianglePoints corners = trianglePoints(mGiven.positions, mGiven.triangles[covered.triangle]);
+  const auto near = guess < size ? static_cast<std::uint32_t>(guess) : kNone;
+  const bool covers = Coverage<NearFaces>(faces, mEnvelope.distance()).covers(corners, near);
+  covered.faces = faces.used();
+  faces.shrink(size);
+  return covers;
+}
+
+std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars, const ChosenCollapse& collapse) const {
+  const Vec3d place = vecCast<double>(mSurface.frame.world(collapse.to.place));
+  Change change{collapse, mEnvelope.nearest(place, mBelow[collapse.a]), {}};
+  if (change.below == kNone) return std::nullopt;
+  NearFaces faces = newFaces(stars, collapse);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (!mEnvelope.contains(faces.corners(i), change.below)) return std::nullopt;
+  const Faces changed = changedFaces(stars, collapse);
+  for (const std::uint32_t t : trianglesAt(changed)) {
+    change.covered.push_back({t, {}});
+    if (!cover(change.covered.back(), facesOf(t), changed, faces)) return std::nullopt;
+  }
+  return change;
+}
+
+void ErrorBound::putInto(const ChosenCollapse& collapse, const Vec3f& a, const Vec3f& b) {
+  mPlaces[collapse.a] = a;
+  mPlaces[collapse.b] = b;
+}
+
+void ErrorBound::accept(const VertexStars& stars) {
+  for (const auto& [triangle, faces] : mJoined) unlink(triangle);
+  for (const Change& c : mChanges) {
+    mBelow[c.collapse.a] = c.below;
+    for (const std::uint32_t f : changedFaces(stars, c.collapse)) {
+      for (std::uint32_t i = mFirstOfFace[f]; i != kNone; i = mLinks[i].nextOfFace) mFree.push_back(i);
+      mFirstOfFace[f] = kNone;
+      for (std::uint32_t& v : mFaces[f]) v = v == c.collapse.b ? c.collapse.a : v;
+    }
+  }
+  for (const auto& [triangle, faces] : mJoined) link({triangle, faces});
+  mChanges.clear();
+  mJoined.clear();
+}
+
+void ErrorBound::link(const Covered& covered) {
+  for (const std::uint32_t f : covered.faces) {
+    const Link link{covered.triangle, f, mFirstOfTriangle[covered.triangle], mFirstOfFace[f]};
+    std::uint32_t i = static_cast<std::uint32_t>(mLinks.size());
+    if (mFree.empty()) {
+      mLinks.push_back(link);
+    } else {
+      i = mFree.back();
+      mFree.pop_back();
+      mLinks[i] = link;
+    }
+    mFirstOfTriangle[covered.triangle] = mFirstOfFace[f] = i;
+  }
+}
+
+void ErrorBound::unlink(std::uint32_t triangle) {
+  for (std::uint32_t i = mFirstOfTriangle[triangle]; i != kNone; i = mLinks[i].nextOfTriangle)
+    mLinks[i].triangle = kNone;
+  mFirstOfTriangle[triangle] = kNone;
+}
+
+}  // namespace pdc::detail
