@@ -85,9 +85,9 @@ struct DecimateReport {
 ///
 /// Edges are collapsed in rounds: of all edges those of least error that do not touch each other, so that rounds run in
 /// parallel and the result does not depend on the number of threads. Where the surface is a manifold it stays one, of
-/// the same topology, without degenerate and without duplicate faces; elsewhere it stays as it is. The result does not
-/// depend on the unit of length, nor, to rounding, on where the mesh lies. Without
-/// `sound` nothing keeps faces from intersecting.
+/// the same topology, without degenerate and without duplicate faces; elsewhere it stays as it is. Vertices that do not
+/// move keep their coordinates to the last bit. The result does not depend on the unit of length, nor, to rounding, on
+/// where the mesh lies. Without `sound` nothing keeps faces from intersecting.
 ///
 /// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.

@@ -110,7 +110,7 @@ Mesh meshOf(const detail::DecimatedSurface& surface, const detail::InterpolatedP
     if (number[v] == kUnused) continue;
     number[v] = static_cast<std::uint32_t>(used.size());
     used.push_back(v);
-    mesh.positions.push_back(surface.frame.world(surface.positions[v]));
+    mesh.positions.push_back(surface.written(v, surface.positions[v]));
   }
   for (const Triangle& t : surface.faces) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   mesh.properties = properties.of(used);
@@ -149,6 +149,7 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   facts.meanEdge = surface.frame.unit();
   surface.positions.reserve(mesh.positions.size());
   for (const Vec3f& p : mesh.positions) surface.positions.push_back(surface.frame.local(p));
+  surface.given = mesh.positions;
   {
     detail::VertexStars stars;
     stars.build(surface.faces, surface.positions.size());

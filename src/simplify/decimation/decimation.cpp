@@ -77,7 +77,7 @@ Decimation::Decimation(DecimatedSurface& surface, const GivenSurface& given, Int
 void Decimation::run(const Monitor& monitor) {
   const std::size_t before = mSurface.faces.size(), wanted = before - std::min(before, mRule.targetFaces);
   std::size_t least = kLeastOfRound;
-  if (mRule.sound) mIntersecting = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
+  if (mRule.sound) mIntersecting = intersectingFaces(mSurface, mSurface.positions, mSurface.faces, monitor);
   while (mSurface.faces.size() > mRule.targetFaces) {
     monitor.throwIfStopped();
     ++mRounds;
@@ -133,7 +133,7 @@ EdgeCollapse Decimation::collapseOf(std::uint32_t a, std::uint32_t b) const {
     if (c.next == b || c.previous == b) between += mAreas[c.face].vector;
   EdgeCollapse c = mCollapse.collapse(a, b, between);
   // What is tested has to be what is written.
-  if (mRule.mayRefuse()) c.place = mSurface.frame.local(mSurface.frame.world(c.place));
+  if (mRule.mayRefuse() && c.place != mSurface.positions[b]) c.place = mSurface.rounded(a, c.place);
   return c;
 }
 
@@ -251,7 +251,9 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
         for (const StarCorner& k : mStars[v]) mTouched[k.next] = mTouched[k.previous] = round;
       }
       faces -= facesAt(c.a, c.b);
-      chosen.push_back({c.a, c.b, *to[i]});
+      // A vertex that takes the other in without moving keeps its number, and its place to the bit.
+      const bool toB = to[i]->place == mSurface.positions[c.b];
+      chosen.push_back({toB ? c.b : c.a, toB ? c.a : c.b, *to[i]});
     }
   }
   return chosen;
@@ -259,7 +261,8 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
 
 /// \returns how many there are.
 std::size_t Decimation::refuse(const std::vector<ChosenCollapse>& collapses) {
-  for (const ChosenCollapse& c : collapses) mRefused[edgeKey(c.a, c.b)] = static_cast<std::uint32_t>(mRounds);
+  for (const ChosenCollapse& c : collapses)
+    mRefused[edgeKey(std::min(c.a, c.b), std::max(c.a, c.b))] = static_cast<std::uint32_t>(mRounds);
   return collapses.size();
 }
 

@@ -30,8 +30,8 @@ class Collapsed {
     }
   }
 
-  [[nodiscard]] FacePairs intersections(const LocalFrame& frame, const Monitor& monitor) const {
-    return intersectingFaces(frame, mPositions, mFaces, monitor);
+  [[nodiscard]] FacePairs intersections(const DecimatedSurface& surface, const Monitor& monitor) const {
+    return intersectingFaces(surface, mPositions, mFaces, monitor);
   }
 
   /// The things that pairs of faces belong to, the lower first, sorted. \param after whether they are faces that are
@@ -71,11 +71,11 @@ std::vector<std::uint8_t> findBad(const Collapsed& after, const FacePairs& befor
 
 }  // namespace
 
-FacePairs intersectingFaces(const LocalFrame& frame, std::span<const Vec3d> positions, std::span<const Triangle> faces,
-                            const Monitor& monitor) {
+FacePairs intersectingFaces(const DecimatedSurface& surface, std::span<const Vec3d> positions,
+                            std::span<const Triangle> faces, const Monitor& monitor) {
   Mesh mesh;
   mesh.positions.reserve(positions.size());
-  for (const Vec3d& p : positions) mesh.positions.push_back(frame.world(p));
+  for (std::uint32_t v = 0; v < positions.size(); ++v) mesh.positions.push_back(surface.written(v, positions[v]));
   mesh.triangles.assign(faces.begin(), faces.end());
   return selfIntersections(mesh, {}, {.progress = {}, .stop = monitor.stop}).pairs;
 }
@@ -86,7 +86,7 @@ std::vector<ChosenCollapse> takeOutIntersecting(const DecimatedSurface& surface,
   std::vector<ChosenCollapse> out;
   while (!collapses.empty()) {
     const Collapsed after(surface, stars, collapses);
-    FacePairs now = after.intersections(surface.frame, monitor);
+    FacePairs now = after.intersections(surface, monitor);
     const std::vector<std::uint8_t> bad = findBad(after, pairs, now, collapses.size());
     std::vector<ChosenCollapse> kept;
     for (std::size_t i = 0; i < collapses.size(); ++i) (bad[i] != 0 ? out : kept).push_back(collapses[i]);

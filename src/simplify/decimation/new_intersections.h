@@ -14,9 +14,9 @@ namespace pdc::detail {
 
 using FacePairs = std::vector<std::array<std::uint32_t, 2>>;
 
-/// Pairs of faces that intersect, decided exactly on positions as the result will have them: in single precision, in
-/// world space. \throws Cancelled.
-[[nodiscard]] FacePairs intersectingFaces(const LocalFrame& frame, std::span<const Vec3d> positions,
+/// Pairs of faces that intersect, decided exactly on positions of the surface's vertices as the result will have them:
+/// in single precision, in world space. \throws Cancelled.
+[[nodiscard]] FacePairs intersectingFaces(const DecimatedSurface& surface, std::span<const Vec3d> positions,
                                           std::span<const Triangle> faces, const Monitor& monitor);
 
 /// Splits collapses, which do not touch each other, into such as make no faces intersect that did not before, nor did

@@ -66,14 +66,14 @@ class SurfaceFit {
   /// \throws Cancelled.
   void step(const Monitor& monitor) {
     monitor.throwIfStopped();
-    if (mRule.sound) mPairs = intersectingFaces(mSurface.frame, mSurface.positions, mSurface.faces, monitor);
+    if (mRule.sound) mPairs = intersectingFaces(mSurface, mSurface.positions, mSurface.faces, monitor);
     mMoved.assign(mSurface.positions.begin(), mSurface.positions.end());
     forEachInParallel(mMoved.size(), [&](std::uint32_t v) {
       const std::span<const StarCorner> star = mStars[v];
       if (!star.empty() && mSurface.locked[v] == 0 && !atBoundary(star)) mMoved[v] += moveOf(v) * kStep;
     });
     if (mRule.sound)
-      for (Vec3d& p : mMoved) p = mSurface.frame.local(mSurface.frame.world(p));
+      for (std::uint32_t v = 0; v < mMoved.size(); ++v) mMoved[v] = mSurface.rounded(v, mMoved[v]);
     do takeBackTurned();
     while (mRule.sound && takeBackIntersecting(monitor));
     std::copy(mMoved.begin(), mMoved.end(), mSurface.positions.begin());
@@ -215,7 +215,7 @@ class SurfaceFit {
   /// Takes back the moves about faces that intersect and did not before. \returns whether there were any.
   bool takeBackIntersecting(const Monitor& monitor) {
     bool any = false;
-    for (const auto& pair : intersectingFaces(mSurface.frame, mMoved, mSurface.faces, monitor)) {
+    for (const auto& pair : intersectingFaces(mSurface, mMoved, mSurface.faces, monitor)) {
       if (std::binary_search(mPairs.begin(), mPairs.end(), pair)) continue;
       for (const std::uint32_t f : pair) any = takeBack(mSurface.faces[f]) || any;
     }
