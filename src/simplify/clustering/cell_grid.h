@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "pdc/math/vec3.h"
 
@@ -39,12 +41,14 @@ class CellGrid {
     return result;
   }
 
-  /// From a place in a cell to coordinates.
+  /// From a place in a cell to coordinates, the nearest that single precision has: the cell may reach beyond them.
   [[nodiscard]] Vec3f position(std::uint64_t key, const Vec3d& local) const {
+    constexpr double kMost = std::numeric_limits<float>::max();
     Vec3d p{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto steps = static_cast<std::int64_t>(key >> (kBits * (2 - axis)) & (2 * kMostSteps - 1));
-      p[axis] = (static_cast<double>(mBase[axis] + steps - kMostSteps) + 0.5 + local[axis]) * mCell;
+      p[axis] = std::clamp((static_cast<double>(mBase[axis] + steps - kMostSteps) + 0.5 + local[axis]) * mCell, -kMost,
+                           kMost);
     }
     return vecCast<float>(p);
   }

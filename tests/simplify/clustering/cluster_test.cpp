@@ -358,6 +358,18 @@ TEST(Cluster, RefusesCornersTooFarAway) {
   EXPECT_NE(refused(1).find("1e+30"), std::string::npos) << refused(1);
 }
 
+TEST(Cluster, VerticesOfCellsThatReachBeyondSinglePrecisionAreFinite) {
+  for (const QuadricKind kind : kKinds)
+    for (std::size_t v = 0; v < 8; ++v) {
+      Mesh spiked = sphere(4);
+      spiked.positions[v].y = std::numeric_limits<float>::max();
+      spiked.positions[v + 40].x = std::numeric_limits<float>::lowest();
+      const Mesh fewer = cluster(
+          spiked, {.cell = 3e38, .quadric = kind, .sigmaNormal = 1e-200, .sigmaPosition = 1e-200, .free = true});
+      for (const Vec3f& p : fewer.positions) EXPECT_TRUE(detail::isFinite(p)) << p.x << ' ' << p.y << ' ' << p.z;
+    }
+}
+
 TEST(Cluster, StopsWhenAsked) {
   std::atomic<bool> stop{false};
   const Monitor monitor{.progress = [&](const char*, double) { stop = true; }, .stop = &stop};
