@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/vertex_quadrics.h"
 
 namespace pdc::detail {
 

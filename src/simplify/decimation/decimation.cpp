@@ -13,6 +13,7 @@
 #include "simplify/decimation/collapse_checks.h"
 #include "simplify/decimation/edge_lanes.h"
 #include "simplify/decimation/new_intersections.h"
+#include "simplify/vertex_pair_hash.h"
 
 namespace pdc::detail {
 namespace {
@@ -49,12 +50,6 @@ void forEachWithSimd(std::size_t n, std::size_t grain, const Visit& visit) {
 }
 
 std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
-
-std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
-  std::uint64_t h = edgeKey(a, b) * 0x9E3779B97F4A7C15u;  // Steele, Lea & Flood 2014, SplitMix.
-  h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
-  return static_cast<std::uint32_t>(h >> 32);
-}
 
 }  // namespace
 
@@ -210,7 +205,7 @@ Decimation::Candidates Decimation::cheapest(std::size_t count) const {
   for (std::uint32_t i = 0; i < mCosts.size(); ++i) {
     if (!(mCosts[i] <= most) || mCosts[i] == kNever) continue;
     const auto [a, b] = edgeAt(i);
-    candidates.push_back({mCosts[i], hashOf(a, b), a, b});
+    candidates.push_back({mCosts[i], vertexPairHash(a, b), a, b});
   }
   tbb::parallel_sort(candidates.begin(), candidates.end());
   // Any number of edges may cost the same.
@@ -277,7 +272,7 @@ bool Decimation::isRefused(std::uint32_t a, std::uint32_t b) const {
 bool Decimation::lookCloser() {
   if (!mTracked) return false;
   mTracked.reset();
-  mBound.emplace(mGiven, mSurface, *mRule.error);
+  mBound.emplace(mGiven.faces, mSurface, *mRule.error);
   mRefused.clear();
   return true;
 }

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "pdc/monitor.h"
-#include "simplify/decimation/decimated_surface.h"
-#include "simplify/decimation/edge_collapse.h"
-#include "simplify/decimation/error_bound.h"
+#include "simplify/decimated_surface.h"
 #include "simplify/decimation/new_intersections.h"
-#include "simplify/decimation/tracked_error.h"
-#include "simplify/decimation/vertex_properties.h"
-#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/edge_collapse.h"
+#include "simplify/error_bound/error_bound.h"
+#include "simplify/error_bound/tracked_error.h"
+#include "simplify/vertex_properties.h"
+#include "simplify/vertex_quadrics.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

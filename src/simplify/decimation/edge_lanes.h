@@ -6,8 +6,8 @@
 
 #include "math/lane_loops.h"
 #include "pdc/math/quadric_lanes.h"
-#include "simplify/decimation/edge_collapse.h"
-#include "simplify/decimation/edge_quadrics.h"
+#include "simplify/edge_collapse.h"
+#include "simplify/edge_quadrics.h"
 
 namespace pdc::detail {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "pdc/monitor.h"
-#include "simplify/decimation/decimated_surface.h"
-#include "simplify/decimation/edge_collapse.h"
+#include "simplify/decimated_surface.h"
+#include "simplify/edge_collapse.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pdc/monitor.h"
-#include "simplify/decimation/decimated_surface.h"
+#include "simplify/decimated_surface.h"
 
 namespace pdc::detail {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "pdc/simplify/decimate.h"
-#include "simplify/decimation/local_frame.h"
+#include "simplify/local_frame.h"
 #include "simplify/shapes.h"
 
 namespace pdc {

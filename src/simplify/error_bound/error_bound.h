@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "simplify/decimation/decimated_surface.h"
-#include "simplify/decimation/edge_collapse.h"
-#include "simplify/decimation/envelope.h"
+#include "simplify/decimated_surface.h"
+#include "simplify/edge_collapse.h"
+#include "simplify/error_bound/envelope.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {
@@ -20,9 +20,9 @@ namespace pdc::detail {
 /// are near to it, all of them together to all of it; where one of them changes others are found.
 class ErrorBound {
  public:
-  /// \param given the surface given, in the same frame. \param surface within the distance of it; has to live as long.
+  /// \param given the faces given. \param surface within the distance of them; it has to live as long.
   /// \param distance in world units. Runs in parallel.
-  ErrorBound(const GivenSurface& given, const DecimatedSurface& surface, double distance);
+  ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance);
 
   /// Takes out collapses, which do not touch each other, that would break the bound if all of them were done, and makes
   /// ready for the others. Runs in parallel; the result does not depend on the number of threads.
@@ -71,7 +71,10 @@ class ErrorBound {
   void putInto(const ChosenCollapse& collapse, const Vec3f& a, const Vec3f& b);
   void link(const Covered& covered);
   void unlink(std::uint32_t triangle);
-  [[nodiscard]] Vec3f placeOf(std::uint32_t vertex) const { return mSurface.frame.world(mSurface.positions[vertex]); }
+  [[nodiscard]] Vec3f placeOf(std::uint32_t vertex) const {
+    return mSurface.written(vertex, mSurface.positions[vertex]);
+  }
+  [[nodiscard]] Vec3f placeOf(const ChosenCollapse& c) const { return mSurface.written(c.a, c.to.place); }
 
   const DecimatedSurface& mSurface;
   Mesh mGiven;

@@ -1,11 +1,11 @@
-#include "simplify/decimation/tracked_error.h"
+#include "simplify/error_bound/tracked_error.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "simplify/decimation/star_gap.h"
+#include "simplify/error_bound/star_gap.h"
 
 namespace pdc::detail {
 

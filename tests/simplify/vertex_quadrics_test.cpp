@@ -1,4 +1,4 @@
-#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/vertex_quadrics.h"
 
 #include <gtest/gtest.h>
 

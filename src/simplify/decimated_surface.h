@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "simplify/decimation/local_frame.h"
+#include "simplify/local_frame.h"
 
 namespace pdc::detail {
 

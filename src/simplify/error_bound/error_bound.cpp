@@ -1,4 +1,4 @@
-#include "simplify/decimation/error_bound.h"
+#include "simplify/error_bound/error_bound.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -7,15 +7,14 @@
 #include <numeric>
 #include <utility>
 
-#include "simplify/decimation/coverage.h"
+#include "simplify/error_bound/coverage.h"
 
 namespace pdc::detail {
 namespace {
 
-Mesh worldMesh(const LocalFrame& frame, const std::vector<Vec3d>& positions, const Buffer<Triangle>& faces) {
+Mesh meshOf(Buffer<Vec3f> positions, const Buffer<Triangle>& faces) {
   Mesh mesh;
-  mesh.positions.reserve(positions.size());
-  for (const Vec3d& p : positions) mesh.positions.push_back(frame.world(p));
+  mesh.positions = std::move(positions);
   mesh.triangles = faces;
   return mesh;
 }
@@ -80,22 +79,22 @@ class ErrorBound::NearFaces {
   std::vector<std::uint8_t> mUsed;
 };
 
-ErrorBound::ErrorBound(const GivenSurface& given, const DecimatedSurface& surface, double distance)
+ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance)
     : mSurface(surface),
-      mGiven(worldMesh(surface.frame, given.positions, given.faces)),
+      mGiven(meshOf({surface.given.begin(), surface.given.end()}, given)),
       mEnvelope(mGiven, distance),
       mFaces(surface.faces),
       mFaceGiven(surface.faces.size()),
       mBelow(surface.positions.size(), kNone),
       mFirstOfFace(surface.faces.size(), kNone),
-      mFirstOfTriangle(given.faces.size(), kNone) {
+      mFirstOfTriangle(given.size(), kNone) {
   std::iota(mFaceGiven.begin(), mFaceGiven.end(), 0U);
   findLinks();
 }
 
 void ErrorBound::findLinks() {
-  Mesh now = worldMesh(mSurface.frame, mSurface.positions, mFaces);
-  mPlaces = now.positions;
+  for (std::uint32_t v = 0; v < mSurface.positions.size(); ++v) mPlaces.push_back(placeOf(v));
+  const Mesh now = meshOf(mPlaces, mFaces);
   std::vector<std::uint8_t> used(mPlaces.size(), 0);
   for (const Triangle& t : mFaces)
     for (const std::uint32_t v : t) used[v] = 1;
@@ -156,7 +155,7 @@ std::vector<ChosenCollapse> ErrorBound::joinAll(const VertexStars& stars, std::v
       out.push_back(c.collapse);
       continue;
     }
-    const Vec3f place = mSurface.frame.world(c.collapse.to.place);
+    const Vec3f place = placeOf(c.collapse);
     putInto(c.collapse, place, place);
     collapses.push_back(c.collapse);
     joined.push_back(std::move(c));
@@ -195,7 +194,7 @@ ErrorBound::Faces ErrorBound::changedFaces(const VertexStars& stars, const Chose
 /// What becomes of those that do not vanish.
 ErrorBound::NearFaces ErrorBound::newFaces(const VertexStars& stars, const ChosenCollapse& collapse) const {
   NearFaces faces;
-  const Vec3d place = vecCast<double>(mSurface.frame.world(collapse.to.place));
+  const Vec3d place = vecCast<double>(placeOf(collapse));
   forEachChangedFace(stars, collapse, [&](const StarCorner& c) {
     if (c.next == collapse.b || c.previous == collapse.b) return;
     faces.add(mFaceGiven[c.face], {place, vecCast<double>(placeOf(c.next)), vecCast<double>(placeOf(c.previous))});
@@ -241,7 +240,7 @@ bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& chang
 }
 
 std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars, const ChosenCollapse& collapse) const {
-  const Vec3d place = vecCast<double>(mSurface.frame.world(collapse.to.place));
+  const Vec3d place = vecCast<double>(placeOf(collapse));
   Change change{collapse, mEnvelope.nearest(place, mBelow[collapse.a]), {}};
   if (change.below == kNone) return std::nullopt;
   NearFaces faces = newFaces(stars, collapse);

@@ -1,11 +1,11 @@
-#include "simplify/decimation/envelope.h"
+#include "simplify/error_bound/envelope.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "simplify/decimation/coverage.h"
+#include "simplify/error_bound/coverage.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

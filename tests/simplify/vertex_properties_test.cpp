@@ -1,4 +1,4 @@
-#include "simplify/decimation/vertex_properties.h"
+#include "simplify/vertex_properties.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simplify/decimation/star_gap.h"
+#include "simplify/error_bound/star_gap.h"
 
 #include <algorithm>
 #include <array>
@@ -63,12 +63,16 @@ double gapAtCrossing(const HeightEdge& e, const HeightEdge& f) {
 class StarGap {
  public:
   StarGap(const DecimatedSurface& surface, const VertexStars& stars, const ChosenCollapse& collapse)
-      : mSurface(surface), mStars(stars), mCollapse(collapse), mOrigin(worldOf(surface.positions[collapse.a])) {}
+      : mSurface(surface),
+        mStars(stars),
+        mCollapse(collapse),
+        mOrigin(worldOf(collapse.a, surface.positions[collapse.a])) {}
 
   double find() {
     if (atBoundary(mStars[mCollapse.a]) || atBoundary(mStars[mCollapse.b])) return kInfinite;
     if (!findAxes()) return kInfinite;
-    const Place a = placeOf(mCollapse.a), b = placeOf(mCollapse.b), to = project(worldOf(mCollapse.to.place));
+    const Place a = placeOf(mCollapse.a), b = placeOf(mCollapse.b),
+                to = project(worldOf(mCollapse.a, mCollapse.to.place));
     if (!addFaces(mCollapse.a, a, to) || !addFaces(mCollapse.b, b, to) || !isOneRound(to)) return kInfinite;
     double gap = std::max({mAfter.gapAt(a), mAfter.gapAt(b), mBefore.gapAt(to)});
     for (const HeightEdge& e : mBefore.edges)
@@ -78,12 +82,14 @@ class StarGap {
   }
 
  private:
-  [[nodiscard]] Vec3d worldOf(const Vec3d& local) const { return vecCast<double>(mSurface.frame.world(local)); }
+  [[nodiscard]] Vec3d worldOf(std::uint32_t v, const Vec3d& local) const {
+    return vecCast<double>(mSurface.written(v, local));
+  }
   [[nodiscard]] Place project(const Vec3d& p) const {
     const Vec3d d = p - mOrigin;
     return {dot(mX, d), dot(mY, d), dot(mNormal, d)};
   }
-  [[nodiscard]] Place placeOf(std::uint32_t v) const { return project(worldOf(mSurface.positions[v])); }
+  [[nodiscard]] Place placeOf(std::uint32_t v) const { return project(worldOf(v, mSurface.positions[v])); }
 
   /// The vector area of the faces, which is that of their boundary and thus the same before and after.
   bool findAxes() {

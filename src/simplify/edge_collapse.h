@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/vertex_quadrics.h"
 
 namespace pdc::detail {
 
@@ -31,8 +31,11 @@ class CollapseRule {
   bool classical = false;  ///< Quadrics may have no single minimum.
   bool subset = false;     ///< See CollapsePlacement.
 
-  /// Collapses the edge from a to b. \param between sum of the vectors of the faces at the edge.
-  [[nodiscard]] EdgeCollapse collapse(std::uint32_t a, std::uint32_t b, const Vec3d& between) const;
+  /// Collapses the edge from a to b. \param between sum of the vectors of the faces at the edge. \param keepsVolume
+  /// whether the vertex is drawn to where the enclosed volume stays: where no edge joins a and b, it may not be
+  /// enclosed.
+  [[nodiscard]] EdgeCollapse collapse(std::uint32_t a, std::uint32_t b, const Vec3d& between,
+                                      bool keepsVolume = true) const;
 
   /// Whether EdgeLanes finds the cost of an edge.
   [[nodiscard]] bool inLanes(std::uint32_t a, std::uint32_t b) const {

@@ -1,9 +1,9 @@
-#include "simplify/decimation/edge_collapse.h"
+#include "simplify/edge_collapse.h"
 
 #include <algorithm>
 
 #include "pdc/math/solvers.h"
-#include "simplify/decimation/edge_quadrics.h"
+#include "simplify/edge_quadrics.h"
 
 namespace pdc::detail {
 namespace {
@@ -20,8 +20,9 @@ EdgeMinimum minimizeClassical(const VertexQuadric& a, const VertexQuadric& b, co
 
 }  // namespace
 
-EdgeCollapse CollapseRule::collapse(std::uint32_t a, std::uint32_t b, const Vec3d& between) const {
-  const VertexQuadric &qa = mQuadrics[a], &qb = mQuadrics[b];
+EdgeCollapse CollapseRule::collapse(std::uint32_t a, std::uint32_t b, const Vec3d& between, bool keepsVolume) const {
+  VertexQuadric qa = mQuadrics[a], qb = mQuadrics[b];
+  if (!keepsVolume) qa.vectorArea = qb.vectorArea = between * 0.5;
   const Vec3d half = (mPositions[b] - mPositions[a]) * 0.5, middle = mPositions[a] + half;
   const auto errorAt = [&](const Vec3d& x) { return std::max(0.0, sumAboutMiddle(qa.q, qb.q, half)(x)); };
   if (mLocked[a] != 0 || mLocked[b] != 0 || subset) {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "simplify/decimation/decimated_surface.h"
-#include "simplify/decimation/edge_collapse.h"
+#include "simplify/decimated_surface.h"
+#include "simplify/edge_collapse.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pdc/math/solvers.h"
-#include "simplify/decimation/vertex_quadrics.h"
+#include "simplify/vertex_quadrics.h"
 
 // What the quadrics of an edge's two ends sum up to about its middle. Free of branches, for the sake of batches.
 namespace pdc::detail {

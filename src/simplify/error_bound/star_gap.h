@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simplify/decimation/decimated_surface.h"
-#include "simplify/decimation/edge_collapse.h"
+#include "simplify/decimated_surface.h"
+#include "simplify/edge_collapse.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

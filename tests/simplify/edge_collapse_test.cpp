@@ -1,4 +1,4 @@
-#include "simplify/decimation/edge_collapse.h"
+#include "simplify/edge_collapse.h"
 
 #include <gtest/gtest.h>
 
