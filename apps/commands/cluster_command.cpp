@@ -46,6 +46,7 @@ Json toJson(const ClusterRequest& request, const ClusterRun& run) {
           {"triangles_before", r.trianglesBefore},
           {"triangles", r.trianglesAfter},
           {"vertices", r.vertices},
+          {"welded_vertices", r.weldedVertices},
           {"cells", r.cells},
           {"collapsed_triangles", r.collapsedTriangles},
           {"non_finite_triangles", r.nonFiniteTriangles},
@@ -131,6 +132,10 @@ void addClusterOptions(CLI::App& command, ClusterRequest& request) {
   addReal(command, "--sigma-p", request.sigmaPosition, notNegative, "a finite number >= 0",
           fmt::format("Noise of the vertices, in cells ({})", options.sigmaPosition))
       ->type_name("S")
+      ->group(clustering);
+  addReal(command, "--weld", options.weld, notNegative, "a finite number >= 0",
+          "Vertices within D of each other become one before all\nelse, in world units; the file is then read whole")
+      ->type_name("D")
       ->group(clustering);
   command.add_flag("--free", options.free, "Vertices may leave their cells")->group(clustering);
   command.add_flag("--clean", options.clean, "Drop folded and duplicate triangles")->group(clustering);

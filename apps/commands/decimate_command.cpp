@@ -11,6 +11,7 @@
 #include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/triangulate_polygons.h"
+#include "pdc/mesh/weld_vertices.h"
 #include "requests/quadric_words.h"
 #include "terminal/busy_sign.h"
 #include "terminal/choice_option.h"
@@ -30,6 +31,7 @@ const Choices<CollapsePlacement> kPlacements{{"minimizer", CollapsePlacement::kM
 /// What one run did, as far as the library does not say it. Seconds are wall-clock time.
 struct DecimateRun {
   DecimateReport report;
+  bool soup = false;  ///< No faces given share a vertex.
   std::size_t bytesWritten = 0;
   double secondsRead = 0, secondsDecimate = 0, secondsWrite = 0;
   std::vector<std::string> warnings;
@@ -59,6 +61,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"faces", r.facesAfter},
           {"vertices_before", r.verticesBefore},
           {"vertices", r.verticesAfter},
+          {"welded_vertices", r.weldedVertices},
           {"end", r.end == DecimateEnd::kReached ? "reached" : "no_collapse_left"},
           {"mean_edge", r.meanEdge},
           {"noise", r.noise},
@@ -87,8 +90,13 @@ void printSummary(const DecimateRequest& request, const DecimateRun& run) {
 }
 
 /// What the user should know of, one line each.
-std::vector<std::string> warningsOf(const DecimateReport& r) {
+std::vector<std::string> warningsOf(const DecimateRequest& request, const DecimateRun& run) {
+  const DecimateReport& r = run.report;
   std::vector<std::string> warnings;
+  if (run.soup && !request.options.weld)
+    warnings.push_back(
+        "no two faces share a vertex, so that each is a boundary all around: --weld 0 joins them where "
+        "their corners are equal, --weld D where they lie within D");
   if (r.end == DecimateEnd::kNoCollapseLeft)
     warnings.push_back(
         fmt::format("{} triangles are left: each further collapse would change the topology, turn a face "
@@ -125,6 +133,11 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       "Triangles at most, as a share of those given")
       ->type_name("R")
       ->group(target);
+  addReal(
+      command, "--weld", options.weld, [](double v) { return v >= 0 && std::isfinite(v); }, "a finite number >= 0",
+      "Vertices within D of each other become one before all\nelse, in world units; 0: those at one place")
+      ->type_name("D")
+      ->group("Input");
   const auto quadrics = "Quadrics";
   addChoice(command, "--quadric", options.quadric, kQuadricWords,
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")
@@ -176,6 +189,7 @@ void runDecimate(const DecimateRequest& request) {
     MeshFile file = readMeshFile(request.input, request.quiet);
     run.warnings = std::move(file.warnings);
     mesh = std::move(file.mesh);
+    run.soup = isSoup(mesh);
     triangulatePolygons(mesh);
   }
   run.secondsRead = stopwatch.lap();
@@ -193,7 +207,7 @@ void runDecimate(const DecimateRequest& request) {
     });
   }
   run.secondsDecimate = stopwatch.lap();
-  for (const std::string& warning : warningsOf(run.report)) {
+  for (const std::string& warning : warningsOf(request, run)) {
     run.warnings.push_back(warning);
     if (!request.quiet) printWarning(warning);
   }

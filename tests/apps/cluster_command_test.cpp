@@ -60,6 +60,20 @@ TEST(ClusterCommand, PassesItsOptionsOn) {
             expected({.cell = 0.3, .quadric = QuadricKind::kProbabilisticTriangle, .sigmaPosition = 0.1}));
 }
 
+TEST(ClusterCommand, WeldsWhatItReads) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.stl", out = folder / "small.ply";
+  writeMesh(sphere(20), in);
+  const Outcome outcome = runPdc({"cluster", in, out, "--cell", "0.3", "--weld", "0.05", "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  ClusterReport expected;
+  const Mesh mesh = cluster(readMesh(in), {.cell = 0.3, .weld = 0.05}, &expected);
+  EXPECT_GT(expected.weldedVertices, 0u);
+  EXPECT_EQ(Json::parse(outcome.out)["welded_vertices"], expected.weldedVertices);
+  EXPECT_EQ(readMesh(out).positions, mesh.positions);
+  expectOneLineRefusal(runPdc({"cluster", in, out, "--cell", "1", "--weld", "-1"}), 2, {"--weld", "-1", ">= 0"});
+}
+
 TEST(ClusterCommand, SaysWhatItDid) {
   const TemporaryFolder folder;
   const std::string in = folder / "ball.obj", out = folder / "small.ply";

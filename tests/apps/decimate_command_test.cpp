@@ -52,6 +52,28 @@ TEST(DecimateCommand, WarnsWhereTheTargetIsOutOfReach) {
   EXPECT_NE(outcome.err.find("pdc: warning: 4 triangles are left"), std::string::npos) << outcome.err;
 }
 
+TEST(DecimateCommand, WeldsSoupAndWarnsOfIt) {
+  const TemporaryFolder folder;
+  const Mesh box = cube(4);
+  Mesh soup;
+  for (const Triangle& t : box.triangles) {
+    const auto n = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) soup.positions.push_back(box.positions[v]);
+    soup.triangles.push_back({n, n + 1, n + 2});
+  }
+  const std::string in = folder / "soup.obj", out = folder / "small.ply";
+  writeMesh(soup, in);
+  const Outcome plain = runPdc({"decimate", in, out, "--faces", "12", "--json", "-"});
+  EXPECT_NE(plain.err.find("pdc: warning: no two faces share a vertex"), std::string::npos) << plain.err;
+  EXPECT_NE(plain.err.find("--weld"), std::string::npos) << plain.err;
+  EXPECT_EQ(Json::parse(plain.out)["welded_vertices"], 0);
+  const Outcome welded = runPdc({"decimate", in, out, "--faces", "12", "--weld", "0", "--json", "-"});
+  EXPECT_EQ(welded.err, "");
+  EXPECT_EQ(Json::parse(welded.out)["welded_vertices"], 576 - 98);
+  EXPECT_EQ(Json::parse(welded.out)["faces"], 12);
+  EXPECT_EQ(runPdc({"check", out}).exitCode, 0);
+}
+
 TEST(DecimateCommand, PolygonsAndPropertiesPass) {
   const TemporaryFolder folder;
   const std::string in = folder.write("pentagon.obj", "v 0 0 0\nv 2 0 0\nv 3 2 0\nv 1 3 0\nv -1 2 0\nf 1 2 3 4 5\n");
@@ -82,6 +104,8 @@ TEST(DecimateCommand, RefusesInOneLine) {
   refuses({"--ratio", "1.5"}, 2, {"--ratio", "1.5", "at most 1"});
   refuses({"--faces", "-1"}, 2, {"--faces", "-1"});
   refuses({"--faces", "9", "--sigma-n", "-0.1"}, 2, {"--sigma-n", "-0.1", ">= 0"});
+  refuses({"--faces", "9", "--weld", "-1"}, 2, {"--weld", "-1", ">= 0"});
+  refuses({"--faces", "9", "--weld", "inf"}, 2, {"--weld", "inf", ">= 0"});
   refuses({"--faces", "9", "--memory", "2"}, 2, {"--memory", "2", "0 to 1"});
   refuses({"--faces", "9", "--quadric", "cubic"}, 2, {"--quadric", "cubic", "probabilistic-plane"});
   refuses({"--faces", "9", "--max-turn", "100"}, 2, {"--max-turn", "100", "90"});

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "pdc/mesh/mesh.h"
@@ -19,15 +20,20 @@ struct ClusterOptions {
   /// Standard deviation of each coordinate of the corners, 0 or more, in cells. It counts for kProbabilisticTriangle
   /// only: for planes it does not move the minimum.
   double sigmaPosition = 0.005;
+  /// Vertices within this distance of each other, in world units, 0 or more, become one before anything else, so that
+  /// none of them falls into a neighbouring cell: see weldVertices(). For cluster() and clusterFile(), which then reads
+  /// the file whole; Clustering sees no vertices.
+  std::optional<double> weld{};
   bool free = false;   ///< Vertices may leave their cells, by one and a half cells at most.
   bool clean = false;  ///< Folded and duplicate faces are dropped.
 };
 
 struct ClusterReport {
   std::size_t trianglesBefore = 0, trianglesAfter = 0;
+  std::size_t weldedVertices = 0;      ///< Vertices given that became one with another.
   std::size_t cells = 0;               ///< Cells that hold corners.
   std::size_t vertices = 0;            ///< Cells that faces are left at.
-  std::size_t collapsedTriangles = 0;  ///< Triangles given whose corners lie in one or two cells.
+  std::size_t collapsedTriangles = 0;  ///< Triangles given whose corners lie in one or two cells, or became one.
   std::size_t nonFiniteTriangles = 0;  ///< Triangles given with a NaN or infinite coordinate: left out.
   std::size_t foldedFaces = 0;         ///< Faces dropped in pairs that have the same vertices and face opposite ways.
   std::size_t duplicateFaces = 0;      ///< Faces dropped because another has the same vertices.
@@ -46,7 +52,7 @@ struct ClusterReport {
 /// Used by one thread at a time; after an error it can only be destroyed.
 class Clustering {
  public:
-  /// \throws std::invalid_argument for options out of range.
+  /// \throws std::invalid_argument for options out of range, and if `weld` is set.
   explicit Clustering(const ClusterOptions& options);
   ~Clustering();
   Clustering(const Clustering&) = delete;

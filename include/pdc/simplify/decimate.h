@@ -27,10 +27,13 @@ struct DecimateOptions {
   /// both are set.
   std::optional<std::size_t> faces{};
   std::optional<double> ratio{};
-  /// No point of the result is farther than this from the surface given, and no vertex of the latter's faces farther
-  /// from the result: every collapse that would break it is refused. Without a number of faces or a ratio there are as
-  /// few triangles as come out then. One of the three must be set.
+  /// No point of the result is farther than this from the surface given, nor a point of that from the result: collapses
+  /// that would break it are refused. Without a number of faces or a ratio there are as few triangles as come out then.
+  /// One of the three must be set. Takes ten times as long and more.
   std::optional<MeshLength> error{};
+  /// Vertices within this distance of each other, in world units, 0 or more, become one before anything else: see
+  /// weldVertices(). Else faces are neighbours only where they name the same vertices.
+  std::optional<double> weld{};
   QuadricKind quadric = QuadricKind::kProbabilisticPlane;
   CollapsePlacement placement = CollapsePlacement::kMinimizer;
   /// Standard deviation of each component of the unit normals, 0 or more; from the mesh's own noise if not set.
@@ -64,6 +67,7 @@ enum class DecimateEnd {
 struct DecimateReport {
   std::size_t facesBefore = 0, facesAfter = 0;  ///< Triangles; before: a quad counts as two.
   std::size_t verticesBefore = 0, verticesAfter = 0;
+  std::size_t weldedVertices = 0;  ///< Vertices given that became one with another.
   DecimateEnd end = DecimateEnd::kReached;
   double meanEdge = 0;     ///< Mean length of the edges given, in world units.
   double noise = 0;        ///< What the vertices given seem to have, in mean edge lengths: see meshNoise().
@@ -74,9 +78,10 @@ struct DecimateReport {
   std::size_t rounds = 0, collapses = 0;
   std::size_t limitedMoves = 0;          ///< Collapses whose minimum was too far away to go there.
   std::size_t refusedIntersections = 0;  ///< Collapses that would have made faces intersect, where that was asked for.
-  std::size_t refusedErrors = 0;         ///< Collapses that would have broken the bound on the error.
-  std::size_t degenerateFaces = 0;       ///< Faces given that name a vertex twice or have no finite corners: dropped.
-  std::size_t nonManifoldVertices = 0;   ///< Vertices given about which the surface is none: they stay as they are.
+  std::size_t refusedErrors = 0;         ///< Collapses that would have broken the bound on the error, or may have.
+  std::size_t degenerateFaces =
+      0;  ///< Faces given that name a vertex twice, welded ones too, or have no finite corners: dropped.
+  std::size_t nonManifoldVertices = 0;  ///< Vertices given about which the surface is none: they stay as they are.
 };
 
 /// Replaces a mesh by one of fewer triangles that lies as close to it as it can, by collapsing edges (Garland &

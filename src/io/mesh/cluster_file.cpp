@@ -102,10 +102,11 @@ std::optional<Mesh> stream(const std::filesystem::path& path, const ClusterOptio
 Mesh clusterFile(const std::filesystem::path& path, const ClusterOptions& options, ClusterReport* report,
                  const std::function<void(const std::string&)>& warn, const Monitor& monitor) {
   // What is wrong in the request is said before the file is looked at.
-  static_cast<void>(Clustering(options));
+  static_cast<void>(cluster({}, options));
   static_cast<void>(detail::meshFormat(path));
   try {
-    if (auto mesh = stream(path, options, report, warn, monitor)) return std::move(*mesh);
+    if (!options.weld)
+      if (auto mesh = stream(path, options, report, warn, monitor)) return std::move(*mesh);
   } catch (const Error& error) {
     throw detail::fileError(path, error.what());
   }

@@ -13,6 +13,7 @@
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 #include "pdc/math/triangle_quadric.h"
+#include "pdc/mesh/weld_vertices.h"
 #include "simplify/clustering/cell_grid.h"
 #include "simplify/clustering/cell_sums.h"
 #include "simplify/clustering/clean_faces.h"
@@ -29,6 +30,7 @@ void check(const ClusterOptions& o) {
   require(o.cell > 0 && std::isnormal(o.cell) && std::isnormal(1 / o.cell), "the edge of the cells is not above 0");
   require(o.sigmaNormal >= 0 && std::isfinite(o.sigmaNormal), "sigma_n is not 0 or more");
   require(o.sigmaPosition >= 0 && std::isfinite(o.sigmaPosition), "sigma_p is not 0 or more");
+  require(!o.weld || (*o.weld >= 0 && std::isfinite(*o.weld)), "the distance to weld within is not 0 or more");
 }
 
 /// What a triangle adds to the cells of its corners, seen from its first corner; u and v are the edges from there on.
@@ -115,6 +117,7 @@ struct Clustering::State {
 
 Clustering::Clustering(const ClusterOptions& options) {
   check(options);
+  if (options.weld) throw std::invalid_argument("cluster: there are no vertices to weld in a stream of triangles");
   mState = std::make_unique<State>(options);
 }
 
@@ -177,7 +180,27 @@ Mesh Clustering::finish(ClusterReport* report) {
   return mesh;
 }
 
+namespace {
+
+Mesh clusterWelded(const Mesh& mesh, ClusterOptions options, ClusterReport* report, const Monitor& monitor) {
+  detail::checkSizes(mesh, "cluster");
+  Mesh welded = mesh;
+  const WeldReport weld = weldVertices(welded, *options.weld, monitor);
+  options.weld.reset();
+  ClusterReport facts;
+  Mesh result = cluster(welded, options, &facts, monitor);
+  facts.collapsedTriangles += detail::triangleCount(mesh) - detail::triangleCount(welded);
+  facts.trianglesBefore = detail::triangleCount(mesh);
+  facts.weldedVertices = weld.weldedVertices;
+  if (report != nullptr) *report = facts;
+  return result;
+}
+
+}  // namespace
+
 Mesh cluster(const Mesh& mesh, const ClusterOptions& options, ClusterReport* report, const Monitor& monitor) {
+  check(options);
+  if (options.weld) return clusterWelded(mesh, options, report, monitor);
   Clustering clustering(options);
   detail::checkSizes(mesh, "cluster");
   detail::checkIndices(mesh);

@@ -10,6 +10,7 @@
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 #include "pdc/math/box.h"
+#include "pdc/mesh/weld_vertices.h"
 #include "simplify/decimation/decimation.h"
 #include "simplify/decimation/surface_fit.h"
 #include "simplify/mesh_noise.h"
@@ -42,6 +43,7 @@ void check(const DecimateOptions& o) {
   require(!o.sigmaNormal || (*o.sigmaNormal >= 0 && std::isfinite(*o.sigmaNormal)), "sigma_n is not 0 or more");
   require(!o.sigmaPosition || (*o.sigmaPosition >= 0 && std::isfinite(*o.sigmaPosition)), "sigma_p is not 0 or more");
   require(!o.memory || (*o.memory >= 0 && *o.memory <= 1), "the memory is not within 0 and 1");
+  require(!o.weld || (*o.weld >= 0 && std::isfinite(*o.weld)), "the distance to weld within is not 0 or more");
   require(o.maxTurn > 0 && o.maxTurn <= 90, "the largest turn is not above 0 and at most 90 degrees");
   require(o.boundaryWeight >= 0 && std::isfinite(o.boundaryWeight), "the boundary's weight is not 0 or more");
 }
@@ -129,6 +131,22 @@ std::optional<double> errorOf(const DecimateOptions& options, double meanEdge) {
   return options.error->value * (options.error->inMeanEdges ? meanEdge : 1);
 }
 
+/// Welds a copy first. Faces wanted are counted as a share of those given, before that.
+Mesh decimateWelded(const Mesh& mesh, const DecimateOptions& options, DecimateReport& facts, const Monitor& monitor) {
+  Mesh welded = mesh;
+  const WeldReport weld = weldVertices(welded, *options.weld, monitor);
+  DecimateOptions rest = options;
+  rest.weld.reset();
+  rest.ratio.reset();
+  rest.faces = targetOf(options, detail::triangleCount(mesh));
+  Mesh result = decimate(welded, rest, &facts, monitor);
+  facts.degenerateFaces += detail::triangleCount(mesh) - detail::triangleCount(welded);
+  facts.facesBefore = detail::triangleCount(mesh);
+  facts.verticesBefore = mesh.positions.size();
+  facts.weldedVertices = weld.weldedVertices;
+  return result;
+}
+
 }  // namespace
 
 Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report, const Monitor& monitor) {
@@ -138,6 +156,7 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   DecimateReport own;
   DecimateReport& facts = report != nullptr ? *report : own;
   facts = {};
+  if (options.weld) return decimateWelded(mesh, options, facts, monitor);
   facts.facesBefore = detail::triangleCount(mesh);
   facts.verticesBefore = mesh.positions.size();
   monitor.throwIfStopped();

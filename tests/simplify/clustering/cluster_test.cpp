@@ -376,5 +376,20 @@ TEST(Cluster, StopsWhenAsked) {
   EXPECT_THROW(static_cast<void>(cluster(sphere(20), {.cell = 0.1}, nullptr, monitor)), Cancelled);
 }
 
+// What lies on both sides of a cell's wall falls into one cell.
+TEST(Cluster, WeldsFirst) {
+  Mesh mesh;
+  mesh.positions = {{0.999F, 0.5F, 0.5F}, {2.5F, 0.5F, 0.5F}, {0.5F, 2.5F, 0.5F}, {1.001F, 0.5F, 0.5F}};
+  mesh.triangles = {{0, 1, 2}, {3, 2, 1}, {0, 3, 1}};
+  EXPECT_EQ(cluster(mesh, {.cell = 1}).positions.size(), 4u);
+  ClusterReport report;
+  EXPECT_EQ(cluster(mesh, {.cell = 1, .weld = 0.01}, &report).positions.size(), 3u);
+  EXPECT_EQ(report.weldedVertices, 1u);
+  EXPECT_EQ(report.trianglesBefore, 3u);
+  EXPECT_EQ(report.collapsedTriangles, 1u);
+  EXPECT_THROW(static_cast<void>(cluster(mesh, {.cell = 1, .weld = -1})), std::invalid_argument);
+  EXPECT_THROW(Clustering({.cell = 1, .weld = 0.01}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace pdc

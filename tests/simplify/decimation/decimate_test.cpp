@@ -253,11 +253,36 @@ TEST(Decimate, RefusesOptionsOutOfRange) {
   refuses({.faces = 1, .sigmaNormal = -1});
   refuses({.faces = 1, .sigmaPosition = std::numeric_limits<double>::quiet_NaN()});
   refuses({.faces = 1, .memory = 1.01});
+  refuses({.faces = 1, .weld = -1});
+  refuses({.faces = 1, .weld = std::numeric_limits<double>::infinity()});
   refuses({.faces = 1, .maxTurn = 91});
   refuses({.faces = 1, .boundaryWeight = -1});
   Mesh broken = mesh;
   broken.triangles.push_back({0, 1, 99});
   EXPECT_THROW(static_cast<void>(decimate(broken, {.faces = 1})), Error);
+}
+
+TEST(Decimate, WeldsFirst) {
+  const Mesh box = cube(10);
+  Mesh soup;
+  for (const Triangle& t : box.triangles) {
+    const auto n = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) soup.positions.push_back(box.positions[v]);
+    soup.triangles.push_back({n, n + 1, n + 2});
+  }
+  soup.triangles.push_back({0, 1, 0});
+  const auto last = static_cast<std::uint32_t>(soup.positions.size());
+  soup.positions.push_back(soup.positions[0]);
+  soup.triangles.push_back({0, 1, last});
+  DecimateReport report;
+  const Mesh fewer = decimate(soup, {.ratio = 12.0 / 1202, .weld = 0}, &report);
+  expectClosed(fewer, 2);
+  EXPECT_EQ(fewer.triangles.size(), 12u);
+  EXPECT_EQ(report.facesBefore, 1202u);
+  EXPECT_EQ(report.verticesBefore, 3601u);
+  EXPECT_EQ(report.weldedVertices, 3601u - 602u);
+  EXPECT_EQ(report.degenerateFaces, 2u);
+  EXPECT_GT(decimate(soup, {.faces = 12}).triangles.size(), 1000u) << "or the test shows nothing";
 }
 
 TEST(Decimate, StopsWhenAsked) {

@@ -15,9 +15,10 @@ namespace pdc {
 /// for. The corners of a .ply file's faces are looked up where they stand in the file (Lindstrom 2000, section 3),
 /// which is fast as long as its vertices fit into memory.
 ///
-/// Streamed are .ply files whose vertices come before their faces and have no lists, and .stl files that are as long as
-/// they say. Faces come in the order of the file, 4096 at a time: of these quads come first, then triangles, then
-/// larger polygons. So files whose faces are all of one kind give the same bytes as from memory.
+/// Streamed are, unless vertices are to be welded, .ply files whose vertices come before their faces and have no lists,
+/// and .stl files that are as long as they say. Faces come in the order of the file, 4096 at a time: of these quads
+/// come first, then triangles, then larger polygons. So files whose faces are all of one kind give the same bytes as
+/// from memory.
 ///
 /// \param warn see MeshReadOptions. \throws std::invalid_argument for options out of range; Error as readMesh() and
 /// Clustering::add() do, naming the file; Cancelled, but not while a file is read whole. Progress: "cluster".
