@@ -50,7 +50,10 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   addNonFinite(command, request.acceptNonFinite)->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
-  command.add_flag("--confidence", request.confidence, "A confidence from 0 to 1 per vertex, in a .ply")->group(group);
+  command
+      .add_flag("--confidence", request.confidence,
+                "A confidence from 0 to 1 per vertex, and the standard\ndeviation along its normal, sigma, in a .ply")
+      ->group(group);
   command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner), in a .ply")->group(group);
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }

@@ -34,6 +34,7 @@ constexpr double square(double x) { return x * x; }
 struct VertexEstimate {
   Vec3f normal{};      ///< The direction that they determine best, outwards; zero where there are none.
   float variance = 0;  ///< That of the solution where they determine it, in voxels squared.
+  float sigma = 0;     ///< The standard deviation of its part along the normal, in world units.
   std::uint8_t rank = 1;
   /// Several planes from distances meet there: how far it is from its neighbours' mean says how the crease lies.
   bool onCrease = false;
@@ -55,7 +56,7 @@ struct Planes {
   }
 };
 
-VertexEstimate estimate(const Planes& planes) {
+VertexEstimate estimate(const Planes& planes, double voxelSize) {
   VertexEstimate result;
   if (planes.size == 0) return result;
   SymMat3<double> A{};
@@ -75,7 +76,9 @@ VertexEstimate estimate(const Planes& planes) {
     inverses += 1 / value;
   }
   const double seen = planes.size > rank ? squares / (planes.size - rank) : 0;
-  result.variance = static_cast<float>((seen + planes.known) * inverses);
+  const double perPlane = seen + planes.known;
+  result.variance = static_cast<float>(perPlane * inverses);
+  if (e.value[0] > 0) result.sigma = static_cast<float>(std::sqrt(perPlane / e.value[0]) * voxelSize);
   result.rank = static_cast<std::uint8_t>(std::max(rank, 1));
   result.normal = vecCast<float>(dot(e.vector[0], mean) < 0 ? e.vector[0] * -1.0 : e.vector[0]);
   return result;
@@ -113,7 +116,7 @@ class BlockEstimator {
         planes.known = mKnowsSigma ? meanVariance(patches[i], block.edges) : square(mSampler.normalNoise());
         addCrossings(patches[i], block.edges, add);
       }
-      estimates[vertex] = estimate(planes);
+      estimates[vertex] = estimate(planes, metric.voxelSize);
       estimates[vertex].onCrease = feature != nullptr && feature->count > 1;
     }
   }
@@ -156,7 +159,7 @@ void forEachPair(const Mesh& mesh, const Monitor& monitor, Visit&& visit) {
 }
 
 /// Vertices that certifying added have no planes of their own: each gets its neighbours' mean normal and their largest
-/// variance.
+/// variances.
 void estimateAdded(const Mesh& mesh, std::size_t solved, const Monitor& monitor, Buffer<VertexEstimate>& estimates) {
   std::fill(estimates.begin() + static_cast<std::ptrdiff_t>(solved), estimates.end(), VertexEstimate{});
   if (solved == estimates.size()) return;
@@ -164,6 +167,7 @@ void estimateAdded(const Mesh& mesh, std::size_t solved, const Monitor& monitor,
     if (a < solved || b >= solved) return;
     estimates[a].normal += estimates[b].normal;
     estimates[a].variance = std::max(estimates[a].variance, estimates[b].variance);
+    estimates[a].sigma = std::max(estimates[a].sigma, estimates[b].sigma);
   });
   for (std::size_t i = solved; i < estimates.size(); ++i) {
     const float l = length(estimates[i].normal);
@@ -198,6 +202,12 @@ Buffer<float> confidenceOf(const Mesh& mesh, const Buffer<VertexEstimate>& estim
   return confidence;
 }
 
+Buffer<float> sigmasOf(const Buffer<VertexEstimate>& estimates) {
+  Buffer<float> sigmas(estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) sigmas[i] = estimates[i].sigma;
+  return sigmas;
+}
+
 Buffer<std::uint8_t> ranksOf(const Buffer<VertexEstimate>& estimates) {
   Buffer<std::uint8_t> ranks(estimates.size());
   for (std::size_t i = 0; i < estimates.size(); ++i) ranks[i] = estimates[i].rank;
@@ -225,8 +235,10 @@ void addVertexConfidence(const Surface& surface, const ContourOptions& options, 
     progress.advance(range.size());
   });
   estimateAdded(mesh, topology.vertexCount, monitor, estimates);
-  if (options.confidence)
+  if (options.confidence) {
     mesh.properties.push_back({"confidence", 1, confidenceOf(mesh, estimates, source.map().voxelSize(), monitor)});
+    mesh.properties.push_back({"sigma", 1, sigmasOf(estimates)});
+  }
   if (options.ranks) mesh.properties.push_back({"rank", 1, ranksOf(estimates)});
 }
 

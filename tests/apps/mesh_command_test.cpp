@@ -316,6 +316,7 @@ TEST_F(MeshCommand, ConfidenceAndRankAreWrittenAndDrawn) {
   EXPECT_EQ(rated.positions, plain.positions);
   EXPECT_EQ(rated.quads, plain.quads);
   EXPECT_EQ(rated.values<float>("confidence").size(), plain.positions.size());
+  EXPECT_EQ(rated.values<float>("sigma").size(), plain.positions.size());
   EXPECT_EQ(rated.values<std::uint8_t>("rank").size(), plain.positions.size());
   const Outcome drawn = runPdc({"render", mOutput, mFolder / "rated.png", "--shading", "confidence"});
   EXPECT_EQ(drawn.exitCode, 0) << drawn.err;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/ChangeBackground.h>
 
 #include <algorithm>
 #include <array>
@@ -69,10 +70,12 @@ TEST_F(VertexConfidence, ExactPlanesHaveFullConfidence) {
   const Mesh mesh = contour(turnedBox(), {.sigmaNormal = 0, .placement = Placement::kFree, .confidence = true});
   const auto confidence = mesh.values<float>("confidence");
   ASSERT_EQ(confidence.size(), mesh.positions.size());
-  EXPECT_EQ(mesh.properties.size(), 1u);
+  ASSERT_EQ(mesh.values<float>("sigma").size(), mesh.positions.size());
+  EXPECT_EQ(mesh.properties.size(), 2u);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (planesThrough(mesh.positions[i]) == 1) {
       ASSERT_GT(confidence[i], 0.999F) << i;
+      ASSERT_LT(mesh.values<float>("sigma")[i], 1e-6F) << i;
     }
 }
 
@@ -134,6 +137,49 @@ TEST_F(VertexConfidence, ConfidenceFollowsTheTrueErrorOfNoisyShapes) {
     }
     EXPECT_GT(eval::rankCorrelation(doubt, error), least);
   }
+}
+
+double rootMeanSquare(const auto& values) {
+  double sum = 0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// Along the normals of smooth shapes and of those with creases, planes from gradients and from distances.
+TEST_F(VertexConfidence, SigmaIsNearTheTrueError) {
+  const auto shapes = eval::makeShapes(kSize);
+  for (const HermiteMode mode : {HermiteMode::kGradient, HermiteMode::kDistance})
+    for (const char* const name : {"sphere", "box", "cylinder"})
+      for (const double noise : {0.02, 0.05, 0.1, 0.2}) {
+        const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const auto& s) { return s.name == name; });
+        const eval::Pose pose = eval::randomPose(kPose, kSize);
+        const GridSource source(eval::makeGrid("exact", *shape, pose, noise, 1).grid, {.hermite = mode});
+        const Mesh mesh = contour(source, {.confidence = true});
+        const double ratio =
+            rootMeanSquare(mesh.values<float>("sigma")) / rootMeanSquare(eval::vertexErrors(mesh, *shape, pose));
+        EXPECT_GT(ratio, 0.55) << name << noise;
+        EXPECT_LT(ratio, 1.3) << name << noise;
+      }
+}
+
+TEST_F(VertexConfidence, SigmaIsALengthInWorldUnits) {
+  const auto shapes = eval::makeShapes(kSize);
+  const auto sphere =
+      std::find_if(shapes.begin(), shapes.end(), [](const eval::Shape& s) { return s.name == "sphere"; });
+  const eval::Pose pose = eval::randomPose(kPose, kSize);
+  const auto sigmas = [&](double noise, double scale) {
+    const openvdb::FloatGrid::Ptr grid = eval::makeGrid("exact", *sphere, pose, noise, 1).grid;
+    for (auto value = grid->beginValueAll(); value; ++value) value.setValue(static_cast<float>(scale * *value));
+    openvdb::tools::changeBackground(grid->tree(), static_cast<float>(scale * grid->background()));
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(scale));
+    const Mesh mesh = contour(GridSource(grid), {.confidence = true});
+    const auto found = mesh.values<float>("sigma");
+    return std::vector<double>(found.begin(), found.end());
+  };
+  EXPECT_LT(rootMeanSquare(sigmas(0, 1)), 0.005);
+  const std::vector<double> one = sigmas(0.05, 1), four = sigmas(0.05, 4);
+  ASSERT_EQ(one.size(), four.size());
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(four[i], 4 * one[i], 4e-4 * one[i]) << i;
 }
 
 // The last blocks are sampled, but the neighbours of the vertices are still to be looked at.
