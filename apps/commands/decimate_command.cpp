@@ -16,6 +16,7 @@
 #include "terminal/busy_sign.h"
 #include "terminal/choice_option.h"
 #include "terminal/interrupt.h"
+#include "terminal/length_option.h"
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
 #include "terminal/warning.h"
@@ -27,6 +28,10 @@ using Json = nlohmann::ordered_json;
 
 const Choices<CollapsePlacement> kPlacements{{"minimizer", CollapsePlacement::kMinimizer},
                                              {"subset", CollapsePlacement::kSubset}};
+
+const Choices<DecimateEnd> kEnds{{"reached", DecimateEnd::kReached},
+                                 {"error", DecimateEnd::kError},
+                                 {"no_collapse_left", DecimateEnd::kNoCollapseLeft}};
 
 /// What one run did, as far as the library does not say it. Seconds are wall-clock time.
 struct DecimateRun {
@@ -62,7 +67,8 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"vertices_before", r.verticesBefore},
           {"vertices", r.verticesAfter},
           {"welded_vertices", r.weldedVertices},
-          {"end", r.end == DecimateEnd::kReached ? "reached" : "no_collapse_left"},
+          {"end", wordOf(kEnds, r.end)},
+          {"error", request.options.error ? Json(r.error) : Json(nullptr)},
           {"mean_edge", r.meanEdge},
           {"noise", r.noise},
           {"sigma_n", r.sigmaNormal},
@@ -72,6 +78,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"collapses", r.collapses},
           {"limited_moves", r.limitedMoves},
           {"refused_intersections", r.refusedIntersections},
+          {"refused_errors", r.refusedErrors},
           {"degenerate_faces", r.degenerateFaces},
           {"non_manifold_vertices", r.nonManifoldVertices},
           {"bytes", run.bytesWritten},
@@ -84,6 +91,7 @@ void printSummary(const DecimateRequest& request, const DecimateRun& run) {
   fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", request.output.string(), r.facesAfter, r.facesBefore,
              r.verticesAfter, run.bytesWritten);
   fmt::print("noise {:.2g} mean edges; sigma_n {:.2g}, memory {:.2g}\n", r.noise, r.sigmaNormal, r.memory);
+  if (request.options.error) fmt::print("no point of either surface is farther than {:.4g} from the other\n", r.error);
   fmt::print("{:.2f} s: reading {:.2f}, decimating {:.2f}, writing {:.2f}\n",
              run.secondsRead + run.secondsDecimate + run.secondsWrite, run.secondsRead, run.secondsDecimate,
              run.secondsWrite);
@@ -112,7 +120,8 @@ std::vector<std::string> warningsOf(const DecimateRequest& request, const Decima
 }
 
 void checkRequest(const DecimateRequest& request) {
-  if (!request.faces && !request.options.ratio) throw CLI::ValidationError("--faces", "or --ratio is required");
+  if (!request.faces && !request.options.ratio && !request.options.error)
+    throw CLI::ValidationError("--faces", "or --ratio or --error is required");
   checkMeshPath(request.output);
   checkJsonPath(request.json);
   checkJsonReplaces(request.json, request.input, request.output);
@@ -124,7 +133,7 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
   DecimateOptions& options = request.options;
   command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
   command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
-  const auto target = "Target, the larger if both are given";
+  const auto target = "Target, the first that is met";
   addInteger(command, "--faces", request.faces, 0, std::numeric_limits<int>::max(), "Triangles at most")
       ->type_name("N")
       ->group(target);
@@ -138,6 +147,11 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       "Vertices within D of each other become one before all\nelse, in world units; 0: those at one place")
       ->type_name("D")
       ->group("Input");
+  addLength(
+      command, "--error", options.error,
+      "No point of either surface goes farther than this from\nthe other; 0.1L: in mean edge lengths. Takes longer")
+      ->type_name("E|EL")
+      ->group(target);
   const auto quadrics = "Quadrics";
   addChoice(command, "--quadric", options.quadric, kQuadricWords,
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")

@@ -86,7 +86,7 @@ void Decimation::run(const Monitor& monitor) {
     takeOutRefused(chosen, monitor);
     apply(chosen);
     // Where nothing cheap may be collapsed, more is looked at.
-    if (none && all && !lookCloser()) return;
+    if (none && all && !lookCloser(monitor)) return;
     least = none ? 4 * std::max(least, candidates.size()) : kLeastOfRound;
     if (monitor.progress)
       monitor.progress("decimate", static_cast<double>(before - mSurface.faces.size()) / static_cast<double>(wanted));
@@ -269,10 +269,10 @@ bool Decimation::isRefused(std::uint32_t a, std::uint32_t b) const {
 
 /// From adding up what collapses do to looking at the surface given, which takes far longer and lets more be done.
 /// \returns whether there is anything to look at more closely.
-bool Decimation::lookCloser() {
+bool Decimation::lookCloser(const Monitor& monitor) {
   if (!mTracked) return false;
   mTracked.reset();
-  mBound.emplace(mGiven.faces, mSurface, *mRule.error);
+  mBound.emplace(mGiven.faces, mSurface, *mRule.error, monitor);
   mRefused.clear();
   return true;
 }
@@ -280,7 +280,7 @@ bool Decimation::lookCloser() {
 /// Takes out collapses after which the surface would not be what it has to be.
 void Decimation::takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor) {
   if (mTracked) mErrorRefusals += refuse(mTracked->takeOutFar(mStars, chosen));
-  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen));
+  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen, monitor));
   while (mRule.sound) {
     FacePairs pairs = mIntersecting;
     const std::size_t refused = refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));

@@ -79,7 +79,7 @@ class Decimation {
   [[nodiscard]] Candidates cheapest(std::size_t count) const;
   [[nodiscard]] EdgeCollapse collapseOf(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<ChosenCollapse> choose(const std::vector<Candidate>& candidates);
-  [[nodiscard]] bool lookCloser();
+  [[nodiscard]] bool lookCloser(const Monitor& monitor);
   void takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor);
   void apply(const std::vector<ChosenCollapse>& chosen);
   void removeVanished();

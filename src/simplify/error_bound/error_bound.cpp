@@ -79,7 +79,8 @@ class ErrorBound::NearFaces {
   std::vector<std::uint8_t> mUsed;
 };
 
-ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance)
+ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance,
+                       const Monitor& monitor)
     : mSurface(surface),
       mGiven(meshOf({surface.given.begin(), surface.given.end()}, given)),
       mEnvelope(mGiven, distance),
@@ -89,10 +90,10 @@ ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& su
       mFirstOfFace(surface.faces.size(), kNone),
       mFirstOfTriangle(given.size(), kNone) {
   std::iota(mFaceGiven.begin(), mFaceGiven.end(), 0U);
-  findLinks();
+  findLinks(monitor);
 }
 
-void ErrorBound::findLinks() {
+void ErrorBound::findLinks(const Monitor& monitor) {
   for (std::uint32_t v = 0; v < mSurface.positions.size(); ++v) mPlaces.push_back(placeOf(v));
   const Mesh now = meshOf(mPlaces, mFaces);
   std::vector<std::uint8_t> used(mPlaces.size(), 0);
@@ -102,6 +103,7 @@ void ErrorBound::findLinks() {
   {
     const Envelope about(now, mEnvelope.distance());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size(), 256), [&](const auto& r) {
+      if (monitor.stopped()) return;
       for (std::size_t t = r.begin(); t < r.end(); ++t)
         about.contains(trianglePoints(mGiven.positions, mGiven.triangles[t]), kNone, &near[t]);
     });
@@ -110,15 +112,19 @@ void ErrorBound::findLinks() {
         if (used[v] != 0) mBelow[v] = mEnvelope.nearest(vecCast<double>(mPlaces[v]), kNone);
     });
   }
+  monitor.throwIfStopped();
   mLinks.reserve(near.size() * 2);
   for (std::uint32_t t = 0; t < near.size(); ++t) link({t, std::move(near[t])});
 }
 
-std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
+std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses,
+                                                   const Monitor& monitor) {
   std::vector<std::optional<Change>> found(collapses.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, collapses.size(), 4), [&](const auto& r) {
+    if (monitor.stopped()) return;
     for (std::size_t i = r.begin(); i < r.end(); ++i) found[i] = changeOf(stars, collapses[i]);
   });
+  monitor.throwIfStopped();
   std::vector<ChosenCollapse> out, near;
   mChanges.clear();
   for (std::size_t i = 0; i < collapses.size(); ++i) {

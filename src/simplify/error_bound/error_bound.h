@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "pdc/monitor.h"
 #include "simplify/decimated_surface.h"
 #include "simplify/edge_collapse.h"
 #include "simplify/error_bound/envelope.h"
@@ -21,14 +22,14 @@ namespace pdc::detail {
 class ErrorBound {
  public:
   /// \param given the faces given. \param surface within the distance of them; it has to live as long.
-  /// \param distance in world units. Runs in parallel.
-  ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance);
+  /// \param distance in world units. Runs in parallel. \throws Cancelled.
+  ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance, const Monitor& monitor);
 
   /// Takes out collapses, which do not touch each other, that would break the bound if all of them were done, and makes
   /// ready for the others. Runs in parallel; the result does not depend on the number of threads.
-  /// \returns those taken out.
-  [[nodiscard]] std::vector<ChosenCollapse> takeOutFar(const VertexStars& stars,
-                                                       std::vector<ChosenCollapse>& collapses);
+  /// \returns those taken out. \throws Cancelled.
+  [[nodiscard]] std::vector<ChosenCollapse> takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses,
+                                                       const Monitor& monitor);
   /// Makes ready for some of them only, in the same order. \returns those taken out as well.
   [[nodiscard]] std::vector<ChosenCollapse> restrictTo(const VertexStars& stars,
                                                        std::vector<ChosenCollapse>& collapses);
@@ -59,7 +60,7 @@ class ErrorBound {
   };
   class NearFaces;
 
-  void findLinks();
+  void findLinks(const Monitor& monitor);
   [[nodiscard]] std::optional<Change> changeOf(const VertexStars& stars, const ChosenCollapse& collapse) const;
   [[nodiscard]] bool join(const VertexStars& stars, Change& change);
   [[nodiscard]] std::vector<ChosenCollapse> joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses);
