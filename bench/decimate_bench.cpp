@@ -16,9 +16,7 @@
 
 #include "best_rates.h"
 #include "eval/decimation_peers.h"
-#include "pdc/extract/contour.h"
-#include "pdc/io/mesh/mesh_reader.h"
-#include "pdc/io/open_input.h"
+#include "eval/triangle_input.h"
 #include "pdc/mesh/mesh_comparison.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
@@ -29,6 +27,7 @@ namespace {
 using pdc::Mesh;
 using pdc::Vec3d;
 using pdc::eval::Decimated;
+using pdc::eval::readTriangles;
 
 struct Request {
   std::vector<std::filesystem::path> files{std::filesystem::path(PDC_SCENES) / "csg.yaml"};
@@ -54,27 +53,6 @@ std::vector<Method> methods() {
   std::vector<Method> all{{"pdc", decimate}};  // Rows of pdc::decimate go here.
   for (const auto& peer : pdc::eval::decimationPeers()) all.push_back({peer.name, peer.decimate});
   return all;
-}
-
-Mesh readOrContour(const std::filesystem::path& file) {
-  if (pdc::inputKind(file) == pdc::InputKind::kOther) return pdc::readMesh(file);
-  const pdc::Input input = pdc::openInput(file);
-  return pdc::contour(*input.source, {.sigmaNormal = input.sigmaNormal});
-}
-
-/// A mesh with the triangles that its quads stand for, and nothing but those.
-Mesh readTriangles(const std::filesystem::path& file) {
-  const Mesh read = readOrContour(file);
-  Mesh mesh;
-  mesh.positions = read.positions;
-  mesh.origin = read.origin;
-  for (const pdc::Quad& q : read.quads) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
-  mesh.triangles.insert(mesh.triangles.end(), read.triangles.begin(), read.triangles.end());
-  if (mesh.triangles.empty()) throw std::runtime_error(file.string() + ": no faces");
-  return mesh;
 }
 
 struct TriangleFigures {
