@@ -4,51 +4,41 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pdc::detail {
 namespace {
 
-/// Calls visit(face, corner of it) for all corners at vertices from `begin` on, `size` of them.
-template <typename Visit>
-void forEachCornerIn(std::span<const Triangle> faces, std::uint32_t begin, std::uint32_t size, const Visit& visit) {
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      if (faces[f][k] - begin < size) visit(f, k);  // Smaller ones wrap around.
-}
-
-/// Calls visit(first vertex, number of them) for ranges of vertices, in parallel. Each has to look at all faces, so
-/// that more than a few would not pay.
-template <typename Visit>
-void forEachVertexRange(std::size_t vertices, const Visit& visit) {
-  constexpr int kMostRanges = 8;
-  const int ranges = std::clamp(tbb::this_task_arena::max_concurrency(), 1, kMostRanges);
-  tbb::parallel_for(0, ranges, [&](int r) {
-    const std::size_t begin = vertices * r / ranges, end = vertices * (r + 1) / ranges;
-    visit(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
-  });
-}
+/// Faces are counted in so many parts at most: each part has a counter for every vertex.
+constexpr int kMostParts = 8;
 
 }  // namespace
 
 void VertexStars::build(std::span<const Triangle> faces, std::size_t vertices) {
+  const int parts = std::clamp(tbb::this_task_arena::max_concurrency(), 1, kMostParts);
+  mFill.resize(vertices * parts);
   mFirst.resize(vertices + 1);
-  mFill.assign(vertices, 0);
-  forEachVertexRange(vertices, [&](std::uint32_t begin, std::uint32_t size) {
-    forEachCornerIn(faces, begin, size, [&](std::size_t f, int k) { ++mFill[faces[f][k]]; });
-  });
+  // Calls visit(face, corner of it, counter of its part for the vertex there) for all corners.
+  const auto forEachCorner = [&](const auto& visit) {
+    tbb::parallel_for(0, parts, [&](int part) {
+      std::uint32_t* const fill = mFill.data() + vertices * part;
+      for (std::size_t f = faces.size() * part / parts, end = faces.size() * (part + 1) / parts; f < end; ++f)
+        for (int k = 0; k < 3; ++k) visit(f, k, fill[faces[f][k]]);
+    });
+  };
+  tbb::parallel_for(0, parts, [&](int part) { std::fill_n(mFill.data() + vertices * part, vertices, 0U); });
+  forEachCorner([](std::size_t, int, std::uint32_t& count) { ++count; });
+  // The faces of a part come after those of earlier parts, so that they ascend whatever the parts are.
   std::uint32_t sum = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
     mFirst[v] = sum;
-    sum += mFill[v];
-    mFill[v] = mFirst[v];
+    for (int part = 0; part < parts; ++part) sum += std::exchange(mFill[vertices * part + v], sum);
   }
   mFirst[vertices] = sum;
   mCorners.resize(sum);
-  forEachVertexRange(vertices, [&](std::uint32_t begin, std::uint32_t size) {
-    forEachCornerIn(faces, begin, size, [&](std::size_t f, int k) {
-      const Triangle& t = faces[f];
-      mCorners[mFill[t[k]]++] = {static_cast<std::uint32_t>(f), t[(k + 1) % 3], t[(k + 2) % 3]};
-    });
+  forEachCorner([&](std::size_t f, int k, std::uint32_t& place) {
+    const Triangle& t = faces[f];
+    mCorners[place++] = {static_cast<std::uint32_t>(f), t[(k + 1) % 3], t[(k + 2) % 3]};
   });
 }
 

@@ -14,8 +14,8 @@ struct StarCorner {
   std::uint32_t next, previous;  ///< The vertices after and before this one along the triangle.
 };
 
-/// The triangles at each vertex, by ascending number, in 12 bytes per corner and 4 per vertex. Made anew for each round
-/// of collapses, in memory that is kept.
+/// The triangles at each vertex, by ascending number, in 12 bytes per corner and 8 per vertex, and 4 more for each
+/// thread after the first. Made anew for each round of collapses, in memory that is kept.
 class VertexStars {
  public:
   /// Runs in parallel; the result does not depend on the number of threads.
@@ -32,7 +32,7 @@ class VertexStars {
 
  private:
   Buffer<std::uint32_t> mFirst;  ///< One entry more than vertices.
-  Buffer<std::uint32_t> mFill;
+  Buffer<std::uint32_t> mFill;   ///< By part of the faces and vertex, where the next corner goes.
   Buffer<StarCorner> mCorners;
 };
 

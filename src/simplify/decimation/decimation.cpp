@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "math/lane_loops.h"
+#include "parallel/gather.h"
 #include "simplify/decimation/collapse_checks.h"
 #include "simplify/decimation/edge_lanes.h"
 #include "simplify/decimation/new_intersections.h"
@@ -201,12 +202,15 @@ float Decimation::costOfCheapest(std::size_t count) const {
 /// About so many of those of least cost, in order.
 Decimation::Candidates Decimation::cheapest(std::size_t count) const {
   const float most = costOfCheapest(count);
-  std::vector<Candidate> candidates;
-  for (std::uint32_t i = 0; i < mCosts.size(); ++i) {
-    if (!(mCosts[i] <= most) || mCosts[i] == kNever) continue;
-    const auto [a, b] = edgeAt(i);
-    candidates.push_back({mCosts[i], vertexPairHash(a, b), a, b});
-  }
+  constexpr std::size_t kRun = 256;
+  std::vector<Candidate> candidates =
+      gather<Candidate>((mCosts.size() + kRun - 1) / kRun, [&](std::size_t run, auto& out) {
+        for (std::size_t i = run * kRun, end = std::min(mCosts.size(), i + kRun); i < end; ++i) {
+          if (!(mCosts[i] <= most) || mCosts[i] == kNever) continue;
+          const auto [a, b] = edgeAt(static_cast<std::uint32_t>(i));
+          out.push_back({mCosts[i], vertexPairHash(a, b), a, b});
+        }
+      });
   tbb::parallel_sort(candidates.begin(), candidates.end());
   // Any number of edges may cost the same.
   const bool all = most == kNever && candidates.size() <= 2 * count;
