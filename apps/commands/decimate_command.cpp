@@ -56,6 +56,23 @@ void addFromMesh(CLI::App& command, const std::string& name, std::optional<doubl
   command.add_option_function<std::string>(name, take, help)->type_name("S|auto")->group("Quadrics");
 }
 
+void addNoiseOptions(CLI::App& command, DecimateOptions& options) {
+  addFromMesh(command, "--sigma-n", options.sigmaNormal, std::numeric_limits<double>::max(),
+              "Noise of the unit normals (auto: from the mesh's own)");
+  addFromMesh(command, "--sigma-p", options.sigmaPosition, std::numeric_limits<double>::max(),
+              "Noise of the vertices, in mean edge lengths (auto)");
+  command
+      .add_option(
+          "--sigma-property", options.sigmaProperty,
+          "Property with the noise of each vertex, in world units,\nthat takes the place of the mesh's own; cov: "
+          "covariances")
+      ->type_name("NAME")
+      ->group("Quadrics");
+  addFromMesh(command, "--memory", options.memory, 1,
+              "Share of the faces given in the quadrics, the rest being that\nof the faces left (auto: 0 where there "
+              "is no noise)");
+}
+
 Json toJson(const DecimateRequest& request, const DecimateRun& run) {
   const DecimateReport& r = run.report;
   return {{"input", request.input.string()},
@@ -70,6 +87,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"end", wordOf(kEnds, r.end)},
           {"error", request.options.error ? Json(r.error) : Json(nullptr)},
           {"mean_edge", r.meanEdge},
+          {"sigma_property", request.options.sigmaProperty},
           {"noise", r.noise},
           {"sigma_n", r.sigmaNormal},
           {"sigma_p", r.sigmaPosition},
@@ -157,13 +175,7 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")
       ->type_name("KIND")
       ->group(quadrics);
-  addFromMesh(command, "--sigma-n", options.sigmaNormal, std::numeric_limits<double>::max(),
-              "Noise of the unit normals (auto: from the mesh's own)");
-  addFromMesh(command, "--sigma-p", options.sigmaPosition, std::numeric_limits<double>::max(),
-              "Noise of the vertices, in mean edge lengths (auto)");
-  addFromMesh(command, "--memory", options.memory, 1,
-              "Share of the faces given in the quadrics, the rest being that\nof the faces left (auto: 0 where there "
-              "is no noise)");
+  addNoiseOptions(command, options);
   addChoice(command, "--placement", options.placement, kPlacements,
             "Where vertices go (minimizer): to the least error, or to\none of the edge's ends")
       ->type_name("WHERE")
@@ -213,12 +225,14 @@ void runDecimate(const DecimateRequest& request) {
   options.maxTurn = request.maxTurn.value_or(options.maxTurn);
   options.fit = !request.noFit;
   options.boundaryWeight = request.boundaryWeight.value_or(options.boundaryWeight);
-  {
+  try {
     ProgressBar bar(!request.quiet);
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
     mesh = detail::withThreads(request.threads.value_or(0), [&] {
       return decimate(mesh, options, &run.report, {.progress = show, .stop = &interruptFlag()});
     });
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", request.input.string(), error.what()));
   }
   run.secondsDecimate = stopwatch.lap();
   for (const std::string& warning : warningsOf(request, run)) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simplify/local_frame.h"
+#include "simplify/vertex_noise.h"
 
 namespace pdc::detail {
 
@@ -14,7 +15,8 @@ struct DecimatedSurface {
   std::vector<Vec3d> positions;
   Buffer<Triangle> faces;
   std::vector<std::uint8_t> locked;  ///< By vertex, whether it stays where it is.
-  std::span<const Vec3f> given;      ///< By vertex, its place in the mesh given.
+  VertexNoise noise;
+  std::span<const Vec3f> given;  ///< By vertex, its place in the mesh given.
 
   /// The place of a vertex in the result. Vertices that stay where they were given keep all their bits, which the frame
   /// need not hold: beside large coordinates it rounds those that are nearly 0.

@@ -12,7 +12,8 @@ SymMat3<double> boundaryPlane(const Vec3d& edge, const FaceArea& face, const Qua
   const Vec3d across = cross(face.vector, edge);
   const double square = dot(across, across), length2 = dot(edge, edge);
   if (!(square > 0)) return SymMat3<double>::zero();
-  return outer(across) * (rule.boundaryWeight * (rule.ofTriangles() ? length2 * length2 : length2) / square);
+  const double size = rule.ofTriangles() ? length2 * length2 : length2;
+  return outer(across) * (face.trust * rule.boundaryWeight * size / square);
 }
 
 }  // namespace

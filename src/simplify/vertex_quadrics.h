@@ -26,9 +26,10 @@ struct QuadricRule {
 
 /// What a triangle's neighbours need to know of it.
 struct FaceArea {
-  Vec3d vector;    ///< The cross product of two edges, twice the vector area.
-  double size;     ///< Its length.
-  double inverse;  ///< 1 / size, or 0 where there is no area.
+  Vec3d vector;      ///< The cross product of two edges, twice the vector area.
+  double size;       ///< Its length.
+  double inverse;    ///< 1 / size, or 0 where there is no area.
+  double trust = 1;  ///< What its squared distances are multiplied by: see VertexNoise.
 
   FaceArea() = default;
   FaceArea(const Vec3d& p, const Vec3d& q, const Vec3d& r)
@@ -66,8 +67,8 @@ inline VertexQuadric vertexQuadric(std::uint32_t vertex, std::span<const StarCor
   for (const StarCorner& c : star) {
     const FaceArea& face = areas[c.face];
     sum.vectorArea += face.vector;
-    sum.q.A += outer(face.vector) * (ofTriangles ? 1 : face.inverse);
-    sum.weight += ofTriangles ? face.size * face.size : face.size;
+    sum.q.A += outer(face.vector) * (face.trust * (ofTriangles ? 1 : face.inverse));
+    sum.weight += face.trust * (ofTriangles ? face.size * face.size : face.size);
   }
   switch (rule.kind) {
     case QuadricKind::kPlane:
@@ -79,8 +80,9 @@ inline VertexQuadric vertexQuadric(std::uint32_t vertex, std::span<const StarCor
     case QuadricKind::kProbabilisticTriangle:
       sum.q = Quadric<double>::zero();
       for (const StarCorner& c : star)
-        sum.q +=
-            probabilisticTriangleQuadric(Vec3d{}, positions[c.next] - p, positions[c.previous] - p, rule.sigmaPosition);
+        sum.q += probabilisticTriangleQuadric(Vec3d{}, positions[c.next] - p, positions[c.previous] - p,
+                                              rule.sigmaPosition) *
+                 areas[c.face].trust;
       break;
     case QuadricKind::kPoint:
       sum.q.A = SymMat3<double>::identity() * sum.weight;

@@ -6,6 +6,7 @@
 #include "apps/program.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
+#include "pdc/simplify/decimate.h"
 #include "simplify/shapes.h"
 
 namespace pdc::test {
@@ -72,6 +73,29 @@ TEST(DecimateCommand, WeldsSoupAndWarnsOfIt) {
   EXPECT_EQ(Json::parse(welded.out)["welded_vertices"], 576 - 98);
   EXPECT_EQ(Json::parse(welded.out)["faces"], 12);
   EXPECT_EQ(runPdc({"check", out}).exitCode, 0);
+}
+
+TEST(DecimateCommand, TakesNoiseFromAProperty) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.ply", json = folder / "report.json";
+  Mesh ball = sphere(10);
+  ball.properties = {{"sigma", 1, Buffer<float>(ball.positions.size(), 0.03F)}};
+  writeMesh(ball, in);
+  const Outcome outcome = runPdc({"decimate", in, out, "--faces", "100", "--sigma-property", "sigma", "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["sigma_property"], "sigma");
+  EXPECT_NEAR(report["noise"].get<double>() * report["mean_edge"].get<double>(), 0.03, 1e-6);
+  EXPECT_EQ(readMesh(out).positions, decimate(readMesh(in), {.faces = 100, .sigmaProperty = "sigma"}).positions);
+
+  std::get<Buffer<float>>(ball.properties[0].values)[5] = -1;
+  writeMesh(ball, in);
+  const std::string before = readFile(out);
+  const Outcome bad = runPdc({"decimate", in, out, "--faces", "100", "--sigma-property", "sigma", "--json", json});
+  expectOneLineRefusal(bad, 1, {"ball.ply", "sigma", "vertex 5", "-1", ">= 0"});
+  expectOneLineRefusal(runPdc({"decimate", in, out, "--faces", "9", "--sigma-property", "none"}), 1, {"'none'"});
+  EXPECT_EQ(readFile(out), before);
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"ball.ply", "small.ply"}));
 }
 
 TEST(DecimateCommand, PolygonsAndPropertiesPass) {

@@ -40,6 +40,13 @@ struct DecimateOptions {
   std::optional<double> sigmaNormal{};
   /// Standard deviation of each coordinate of the corners, 0 or more, in mean edge lengths of the mesh; likewise.
   std::optional<double> sigmaPosition{};
+  /// The property of the mesh that has the standard deviation of each vertex along its normal, in world units, finite
+  /// and 0 or more, as contour() gives "sigma"; or "cov" for its covariances, from the properties "covxx", "covxy",
+  /// "covxz", "covyy", "covyz" and "covzz", in world units squared, positive semidefinite up to rounding. None if
+  /// empty. It takes the place of the mesh's own noise, and it says where that is: squared distances to faces count in
+  /// inverse proportion to the variances of their corners along their normals, so that few triangles are spent in
+  /// noise; σn and the memory are those of each vertex, where they are not set; σp is that of the mean.
+  std::string sigmaProperty{};
   /// The share, 0 to 1, that the faces given have in the quadrics, the rest being that of the faces there are: 1 is
   /// what Garland & Heckbert and Trettner & Kobbelt do, 0 is simplification without memory (Lindstrom & Turk 1998,
   /// Hoppe 1999), which lies closer to clean surfaces; noise asks for more. From the mesh's own noise if not set.
@@ -70,8 +77,9 @@ struct DecimateReport {
   std::size_t weldedVertices = 0;  ///< Vertices given that became one with another.
   DecimateEnd end = DecimateEnd::kReached;
   double meanEdge = 0;     ///< Mean length of the edges given, in world units.
-  double noise = 0;        ///< What the vertices given seem to have, in mean edge lengths: see meshNoise().
-  double sigmaNormal = 0;  ///< As used.
+  double noise = 0;        ///< What the vertices given seem to have, in mean edge lengths: see meshNoise(); or the mean
+                           ///< of what sigmaProperty says.
+  double sigmaNormal = 0;  ///< As used; with sigmaProperty that of the mean noise, and likewise the memory.
   double sigmaPosition = 0;
   double memory = 0;
   double error = 0;  ///< The bound in world units; 0 if there is none.
@@ -97,8 +105,8 @@ struct DecimateReport {
 /// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.
 /// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh with a face that names a
-/// vertex that does not exist; Cancelled. Progress: "decimate".
-/// Memory: some 300 bytes per triangle besides the meshes.
+/// vertex that does not exist, and for a property that is missing or no noise, naming the vertex; Cancelled. Progress:
+/// "decimate". Memory: some 300 bytes per triangle besides the meshes.
 [[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
                             const Monitor& monitor = {});
 

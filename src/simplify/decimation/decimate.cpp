@@ -18,21 +18,6 @@
 namespace pdc {
 namespace {
 
-/// σn where a mesh has no noise: keeps vertices of flat parts apart. At 0.001 the faces of the fan disk come out 1.6
-/// times as far from it, at 0.01 five times.
-constexpr double kLeastSigma = 1e-4;
-
-/// Where noise is well below this, in mean edge lengths, it is what sampling does to clean surfaces: 0.02 to 0.04 on
-/// contoured scans.
-constexpr double kLeastNoise = 0.08;
-
-/// What noise of vertices does to the normals of their faces, in each component.
-constexpr double kNormalNoise = 2;
-
-/// The noise of normals at which the faces given have half of the say, and the share below which they have none, which
-/// is faster.
-constexpr double kHalfMemory = 0.5, kLeastMemory = 0.02;
-
 void check(const DecimateOptions& o) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(fmt::format("decimate: {}", what));
@@ -73,15 +58,16 @@ std::size_t lockVertices(detail::DecimatedSurface& surface, const detail::Vertex
   return nonManifold;
 }
 
-/// The choices that the surface's noise makes.
-void chooseNoise(double noise, const DecimateOptions& options, DecimateReport& report) {
-  report.noise = noise;
-  // Small ones fade away.
-  const double normal = kNormalNoise * noise * noise * noise / (noise * noise + kLeastNoise * kLeastNoise);
-  report.sigmaNormal = options.sigmaNormal.value_or(std::max(kLeastSigma, normal));
-  report.sigmaPosition = options.sigmaPosition.value_or(std::max(kLeastSigma, normal / kNormalNoise));
-  const double memory = normal / (normal + kHalfMemory);
-  report.memory = options.memory.value_or(memory < kLeastMemory ? 0 : memory);
+/// The choices that the surface's noise makes, as it is known or as it is measured; of what is known, in the mean.
+void chooseNoise(const detail::DecimatedSurface& surface, const detail::VertexStars& stars,
+                 const DecimateOptions& options, DecimateReport& report) {
+  const bool known = surface.noise.known();
+  report.noise = known ? surface.noise.mean() : detail::meshNoise(stars, surface.positions);
+  const detail::NoiseChoice choice =
+      detail::choiceFor(report.noise, known ? detail::kFadeGiven : detail::kFadeMeasured);
+  report.sigmaNormal = options.sigmaNormal.value_or(choice.sigmaNormal);
+  report.sigmaPosition = options.sigmaPosition.value_or(choice.sigmaPosition);
+  report.memory = options.memory.value_or(choice.memory);
 }
 
 Buffer<Vec3f> vertexNormals(const Mesh& mesh) {
@@ -173,7 +159,9 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
     detail::VertexStars stars;
     stars.build(surface.faces, surface.positions.size());
     facts.nonManifoldVertices = lockVertices(surface, stars, options.lockBoundary);
-    chooseNoise(detail::meshNoise(stars, surface.positions), options, facts);
+    if (!options.sigmaProperty.empty())
+      surface.noise = detail::VertexNoise(mesh, options.sigmaProperty, surface.frame.unit());
+    chooseNoise(surface, stars, options, facts);
   }
 
   const detail::GivenSurface given{surface.positions, surface.faces};
@@ -182,13 +170,16 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
                                     errorOf(options, facts.meanEdge),
                                     {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
                                     facts.memory,
+                                    !options.sigmaNormal,
+                                    !options.memory,
                                     options.placement == CollapsePlacement::kSubset,
                                     std::cos(options.maxTurn * std::numbers::pi / 180),
                                     options.sound};
   detail::Decimation decimation(surface, given, properties, rule);
   decimation.run(monitor);
   if (options.placement == CollapsePlacement::kMinimizer && options.fit && !options.error) {
-    detail::fitSurface(surface, given, {decimation.became(), rule.leastCosine, facts.sigmaNormal, options.sound},
+    detail::fitSurface(surface, given,
+                       {decimation.became(), rule.leastCosine, facts.sigmaNormal, !options.sigmaNormal, options.sound},
                        monitor);
   }
 

@@ -60,6 +60,7 @@ Decimation::Decimation(DecimatedSurface& surface, const GivenSurface& given, Int
       mGiven(given),
       mProperties(properties),
       mRule(rule),
+      mRemembers(rule.memory > 0 || (surface.noise.known() && rule.memoryOfVertices)),
       mTouched(surface.positions.size(), 0),
       mChanged(rule.mayRefuse() ? surface.positions.size() : 0, 0),
       mBecame(surface.positions.size()),
@@ -102,13 +103,30 @@ void Decimation::look() {
   forEachWithSimd(mSurface.faces.size(), 4096, [&](std::size_t f) {
     const Triangle& t = mSurface.faces[f];
     mAreas[f] = FaceArea(p[t[0]], p[t[1]], p[t[2]]);
+    if (mSurface.noise.known()) mAreas[f].trust = mSurface.noise.trust(t, mAreas[f].vector);
   });
   mQuadrics.resize(p.size());
   forEachWithSimd(p.size(), 1024, [&](std::size_t v) {
     const auto vertex = static_cast<std::uint32_t>(v);
-    if (!mStars[vertex].empty()) mQuadrics[v] = vertexQuadric(vertex, mStars[vertex], p, mAreas, mRule.quadrics);
+    if (mStars[vertex].empty()) return;
+    QuadricRule rule = mRule.quadrics;
+    if (mSurface.noise.known()) rule.sigmaNormal = noiseOf(vertex).sigmaNormal;
+    mQuadrics[v] = vertexQuadric(vertex, mStars[vertex], p, mAreas, rule);
   });
-  if (mRule.memory > 0) remember();
+  if (mRemembers) remember();
+}
+
+/// What the noise at a vertex asks for, as far as it is known and was left to choose.
+NoiseChoice Decimation::noiseOf(std::uint32_t vertex) const {
+  const DecimationRule& rule = mRule;
+  NoiseChoice choice{rule.quadrics.sigmaNormal, rule.quadrics.sigmaPosition, rule.memory};
+  if (!mSurface.noise.known()) return choice;
+  Vec3d normal{};
+  for (const StarCorner& c : mStars[vertex]) normal += mAreas[c.face].vector;
+  const NoiseChoice own = mSurface.noise.choice(vertex, normal);
+  if (rule.sigmaNormalOfVertices) choice.sigmaNormal = own.sigmaNormal;
+  if (rule.memoryOfVertices) choice.memory = own.memory;
+  return choice;
 }
 
 /// Mixes what the faces there are say with what those given said.
@@ -117,9 +135,11 @@ void Decimation::remember() {
   const bool first = mAccumulated.empty();
   if (first) mAccumulated.resize(size);
   forEachInParallel(size, 1024, [&](std::size_t v) {
-    if (mStars[static_cast<std::uint32_t>(v)].empty()) return;
+    const auto vertex = static_cast<std::uint32_t>(v);
+    if (mStars[vertex].empty()) return;
     if (first) mAccumulated[v] = mQuadrics[v].q;
-    mQuadrics[v].q = mQuadrics[v].q * (1 - mRule.memory) + mAccumulated[v] * mRule.memory;
+    const double memory = noiseOf(vertex).memory;
+    mQuadrics[v].q = mQuadrics[v].q * (1 - memory) + mAccumulated[v] * memory;
   });
 }
 
@@ -308,7 +328,8 @@ void Decimation::apply(const std::vector<ChosenCollapse>& chosen) {
     const Vec3d along = p[b] - p[a];
     const double l = dot(along, along), share = l > 0 ? std::clamp(dot(to.place - p[a], along) / l, 0.0, 1.0) : 0.5;
     mProperties.blend(a, b, share);
-    if (mRule.memory > 0)
+    if (mSurface.noise.known()) mSurface.noise.merge(a, b);
+    if (mRemembers)
       mAccumulated[a] = mAccumulated[a].relativeTo(to.place - p[a]) + mAccumulated[b].relativeTo(to.place - p[b]);
     p[a] = to.place;
     mBecame[b] = a;

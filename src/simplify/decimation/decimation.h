@@ -24,6 +24,7 @@ struct DecimationRule {
   std::optional<double> error;  ///< In world units: see ErrorBound.
   QuadricRule quadrics;
   double memory;
+  bool sigmaNormalOfVertices, memoryOfVertices;  ///< What is known of a vertex's noise chooses, where it is known.
   bool subset;
   double leastCosine;  ///< See CollapseChecks.
   bool sound;          ///< Whether no face may come to intersect another.
@@ -70,6 +71,7 @@ class Decimation {
   };
 
   void look();
+  [[nodiscard]] NoiseChoice noiseOf(std::uint32_t vertex) const;
   void remember();
   void findCosts();
   void findCostsOf(std::uint32_t begin, std::uint32_t end);
@@ -91,6 +93,7 @@ class Decimation {
   const GivenSurface& mGiven;
   InterpolatedProperties& mProperties;
   const DecimationRule mRule;
+  const bool mRemembers;  ///< Whether the faces given have a share in the quadrics.
   VertexStars mStars;
   Buffer<FaceArea> mAreas;
   Buffer<VertexQuadric> mQuadrics;

@@ -184,8 +184,10 @@ class SurfaceFit {
   [[nodiscard]] Vec3d moveOf(std::uint32_t v) const {
     SymMat3<double> A = SymMat3<double>::zero();
     Vec3d b{};
+    Vec3d normal{};
     double weight = 0;
     for (const StarCorner& c : mStars[v]) {
+      normal += mNormals[c.face];
       const Triangle& t = mSurface.faces[c.face];
       const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
       for (std::uint32_t i = mFirst[c.face]; i < mFirst[c.face + 1]; ++i) {
@@ -198,7 +200,9 @@ class SurfaceFit {
         weight += w * w * size;
       }
     }
-    const double still = kNoiseInertia * mRule.sigmaNormal * mRule.sigmaNormal * mMeanArea;
+    const bool ofVertex = mSurface.noise.known() && mRule.sigmaNormalOfVertices;
+    const double sigmaNormal = ofVertex ? mSurface.noise.choice(v, normal).sigmaNormal : mRule.sigmaNormal;
+    const double still = kNoiseInertia * sigmaNormal * sigmaNormal * mMeanArea;
     const auto move = solveLdlt(A.plusDiagonal(kInertia * weight + still), b);
     return move ? *move : Vec3d{};
   }

@@ -12,7 +12,8 @@ struct FitRule {
   const std::vector<std::uint32_t>& became;  ///< By vertex given, that into which it was collapsed, or itself.
   double leastCosine;                        ///< See CollapseChecks.
   double sigmaNormal;  ///< Noise of the normals given: where there is any, vertices stay nearer to where they are.
-  bool sound;          ///< See DecimationRule.
+  bool sigmaNormalOfVertices;  ///< See DecimationRule.
+  bool sound;                  ///< See DecimationRule.
 };
 
 /// Moves the vertices of a decimated surface to where its faces lie nearest to the surface given, in the least squares
