@@ -190,6 +190,23 @@ TEST(VertexNoise, NoNoiseIsThatOfACleanMesh) {
   EXPECT_TRUE(sameMesh(with, decimate(ball, {.ratio = 0.1, .sigmaNormal = 1e-4, .sigmaPosition = 1e-4, .memory = 0})));
 }
 
+TEST(VertexNoise, ChoosesForEachVertexWhatIsNotSet) {
+  const HalfNoisy ball;
+  const DecimateOptions chosen{.ratio = 0.1, .sigmaProperty = "sigma", .fit = false};
+  DecimateReport report;
+  const Mesh mesh = decimate(ball.noisy, chosen, &report);
+  DecimateOptions sigma = chosen, memory = chosen, position = chosen;
+  sigma.sigmaNormal = report.sigmaNormal;
+  EXPECT_FALSE(sameMesh(decimate(ball.noisy, sigma), mesh));
+  memory.memory = report.memory;
+  EXPECT_FALSE(sameMesh(decimate(ball.noisy, memory), mesh));
+  position.sigmaPosition = report.sigmaPosition;
+  EXPECT_TRUE(sameMesh(decimate(ball.noisy, position), mesh)) << "one for all";
+  sigma.sigmaNormal = 0.3;
+  static_cast<void>(decimate(ball.noisy, sigma, &report));
+  EXPECT_EQ(report.sigmaNormal, 0.3);
+}
+
 TEST(VertexNoise, ScalesWithTheMeshAndNotWithThreads) {
   const HalfNoisy ball;
   const DecimateOptions options{.ratio = 0.1, .sigmaProperty = "sigma"};
