@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "eval/inputs.h"
@@ -17,6 +18,7 @@
 #include "pdc/field/primitives.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/vdb/grid_source.h"
+#include "pdc/simplify/decimate.h"
 
 namespace pdc {
 namespace {
@@ -180,6 +182,22 @@ TEST_F(VertexConfidence, SigmaIsALengthInWorldUnits) {
   const std::vector<double> one = sigmas(0.05, 1), four = sigmas(0.05, 4);
   ASSERT_EQ(one.size(), four.size());
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(four[i], 4 * one[i], 4e-4 * one[i]) << i;
+}
+
+// Noise of the distances grows along x from 0 to half a voxel.
+TEST_F(VertexConfidence, SigmaKeepsDecimationOutOfNoise) {
+  const auto shapes = eval::makeShapes(kSize);
+  const eval::Pose pose = eval::randomPose(kPose, kSize);
+  for (const char* const name : {"sphere", "box", "cylinder"}) {
+    const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const auto& s) { return s.name == name; });
+    const Mesh mesh = contour(GridSource(eval::makeGradedGrid(*shape, pose, 0.5, 1).grid), {.confidence = true});
+    const auto noisyVertices = [&](const std::string& property) {
+      const Mesh fewer = decimate(mesh, {.ratio = 0.2, .sigmaProperty = property});
+      const auto isNoisy = [&](const Vec3f& p) { return p.x > pose.offset.x + kSize / 3; };
+      return std::count_if(fewer.positions.begin(), fewer.positions.end(), isNoisy);
+    };
+    EXPECT_LT(static_cast<double>(noisyVertices("sigma")), 0.9 * static_cast<double>(noisyVertices(""))) << name;
+  }
 }
 
 // The last blocks are sampled, but the neighbours of the vertices are still to be looked at.
