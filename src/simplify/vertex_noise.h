@@ -42,7 +42,7 @@ class VertexNoise {
   [[nodiscard]] double variance(std::uint32_t vertex, const Vec3d& direction) const;
 
   /// How much the squared distance to a face counts, above 0 and at most 1: in inverse proportion to the variance of
-  /// its plane, the mean of that of its corners, and of what is not known to be better. \param normal of any length.
+  /// its plane, the mean of that of its corners, where that is not small. \param normal of any length.
   [[nodiscard]] double trust(const Triangle& face, const Vec3d& normal) const;
 
   /// What the noise of a vertex along a direction asks for.
