@@ -62,6 +62,9 @@ struct DecimateOptions {
   /// Whether the vertices left are moved to where their faces lie nearest to the surface given, in the least squares;
   /// those of kSubset never are, nor is anything where there is a bound on the error.
   bool fit = true;
+  /// Contracts pairs of vertices that are closer than this, too, in world units, above 0: what lies close together
+  /// merges. Quadrics have a memory of 1 then, nothing is fitted, and neither another memory nor `sound` is possible.
+  std::optional<double> pairDistance{};
 };
 
 /// Why decimation ended.
@@ -69,6 +72,14 @@ enum class DecimateEnd {
   kReached,         ///< There are no more faces than asked for.
   kError,           ///< Further collapses would go farther than the error allows, or are refused as below.
   kNoCollapseLeft,  ///< Each further collapse would change the topology, turn a face too far or move what is locked.
+};
+
+/// What came of pairs of vertices that no edge joined.
+struct PairReport {
+  std::size_t merges = 0;          ///< How many such pairs became one vertex.
+  std::size_t duplicateFaces = 0;  ///< Faces left out because others had, or came to have, the same vertices.
+  std::size_t componentsBefore = 0, componentsAfter = 0;      ///< Sets of faces connected through shared vertices.
+  std::size_t nonManifoldEdges = 0, nonManifoldVertices = 0;  ///< Those of the result, as MeshReport has them.
 };
 
 struct DecimateReport {
@@ -89,7 +100,9 @@ struct DecimateReport {
   std::size_t refusedErrors = 0;         ///< Collapses that would have broken the bound on the error, or may have.
   std::size_t degenerateFaces =
       0;  ///< Faces given that name a vertex twice, welded ones too, or have no finite corners: dropped.
-  std::size_t nonManifoldVertices = 0;  ///< Vertices given about which the surface is none: they stay as they are.
+  std::size_t nonManifoldVertices = 0;  ///< Vertices given about which the surface is none: they stay as they are,
+                                        ///< but with a distance of pairs.
+  std::optional<PairReport> pairs{};    ///< If there was a distance of pairs.
 };
 
 /// Replaces a mesh by one of fewer triangles that lies as close to it as it can, by collapsing edges (Garland &
@@ -102,13 +115,24 @@ struct DecimateReport {
 /// move keep their coordinates to the last bit. The result does not depend on the unit of length, nor, to rounding, on
 /// where the mesh lies. Without `sound` nothing keeps faces from intersecting.
 ///
+/// With a distance of pairs the cheapest pair of vertices is contracted at a time, whether an edge joins it or it is
+/// closer than the distance, on one thread. That may join parts, and make edges of any number of faces; where the
+/// surface is none it is decimated as elsewhere. Edges between manifold vertices keep the topology. Of faces that come
+/// to have the same vertices one is left, or none where they faced each other across a gap.
+///
 /// \param mesh quads stand for their two triangles. Normals are made anew if it has any; properties are interpolated
 /// along collapsed edges, whole numbers rounded. Vertices without faces are dropped.
 /// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh with a face that names a
-/// vertex that does not exist, and for a property that is missing or no noise, naming the vertex; Cancelled. Progress:
-/// "decimate". Memory: some 300 bytes per triangle besides the meshes.
+/// vertex that does not exist, for a property that is missing or no noise, naming the vertex, and where more than 256
+/// pairs for each vertex are close; Cancelled. Progress: "decimate". Memory: some 300 bytes per triangle besides the
+/// meshes, and 32 for each close pair.
 [[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
                             const Monitor& monitor = {});
+
+/// The mean length of the edges of a mesh's triangles, in world units, as decimate() reports it: each edge counts once
+/// for each of its faces, and faces that name a vertex twice or are not finite do not. 1 if there are no others.
+/// \throws as decimate().
+[[nodiscard]] double meanEdgeLength(const Mesh& mesh);
 
 /// The standard deviation of the noise that the vertices of a triangle mesh seem to have, in mean edge lengths: from by
 /// how much the surface bends otherwise at an edge than at the edges it meets, of which two must be like it. Neither

@@ -10,10 +10,12 @@
 #include "mesh/faces.h"
 #include "mesh/mesh_checks.h"
 #include "pdc/math/box.h"
+#include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/weld_vertices.h"
 #include "simplify/decimation/decimation.h"
 #include "simplify/decimation/surface_fit.h"
 #include "simplify/mesh_noise.h"
+#include "simplify/pair_contraction/pair_contraction.h"
 
 namespace pdc {
 namespace {
@@ -31,6 +33,10 @@ void check(const DecimateOptions& o) {
   require(!o.weld || (*o.weld >= 0 && std::isfinite(*o.weld)), "the distance to weld within is not 0 or more");
   require(o.maxTurn > 0 && o.maxTurn <= 90, "the largest turn is not above 0 and at most 90 degrees");
   require(o.boundaryWeight >= 0 && std::isfinite(o.boundaryWeight), "the boundary's weight is not 0 or more");
+  require(!o.pairDistance || (*o.pairDistance > 0 && std::isfinite(*o.pairDistance)),
+          "the distance of pairs is not above 0 and finite");
+  require(!o.pairDistance || !o.sound, "with a distance of pairs nothing keeps faces from intersecting");
+  require(!o.pairDistance || o.memory.value_or(1) == 1, "with a distance of pairs the memory is 1");
 }
 
 /// The triangles of a mesh that name three vertices, all finite.
@@ -133,6 +139,39 @@ Mesh decimateWelded(const Mesh& mesh, const DecimateOptions& options, DecimateRe
   return result;
 }
 
+/// What decimate() does where there is a distance of pairs.
+Mesh contractPairs(detail::DecimatedSurface& surface, const Mesh& mesh, const DecimateOptions& options,
+                   DecimateReport& facts, const Monitor& monitor) {
+  facts.memory = 1;
+  const auto meshOfFaces = [&] {
+    Mesh part;
+    part.positions = mesh.positions;
+    part.triangles = surface.faces;
+    return part;
+  };
+  const std::size_t componentsBefore = analyze(meshOfFaces(), monitor).components;
+  detail::InterpolatedProperties properties(mesh);
+  const detail::PairContractionRule rule{
+      targetOf(options, facts.facesBefore),
+      {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
+      *options.pairDistance / surface.frame.unit(),
+      options.placement == CollapsePlacement::kSubset,
+      std::cos(options.maxTurn * std::numbers::pi / 180),
+      options.lockBoundary};
+  detail::PairContraction contraction(surface.positions, surface.faces, properties, rule);
+  contraction.run(monitor);
+  Mesh result = meshOf(surface, properties, mesh);
+  facts.facesAfter = result.triangles.size();
+  facts.verticesAfter = result.positions.size();
+  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached : DecimateEnd::kNoCollapseLeft;
+  facts.collapses = contraction.contractions();
+  facts.limitedMoves = contraction.limitedMoves();
+  const MeshReport after = analyze(result, monitor);
+  facts.pairs = {contraction.merges(), contraction.duplicates(), componentsBefore,
+                 after.components,     after.nonManifoldEdges,   after.nonManifoldVertices};
+  return result;
+}
+
 }  // namespace
 
 Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report, const Monitor& monitor) {
@@ -164,6 +203,7 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
     chooseNoise(surface, stars, options, facts);
   }
 
+  if (options.pairDistance) return contractPairs(surface, mesh, options, facts, monitor);
   const detail::GivenSurface given{surface.positions, surface.faces};
   detail::InterpolatedProperties properties(mesh);
   const detail::DecimationRule rule{targetOf(options, facts.facesBefore),
@@ -196,6 +236,12 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   facts.collapses = decimation.collapses();
   facts.limitedMoves = decimation.limitedMoves();
   return result;
+}
+
+double meanEdgeLength(const Mesh& mesh) {
+  detail::checkSizes(mesh, "meanEdgeLength");
+  detail::checkIndices(mesh);
+  return detail::LocalFrame(mesh, usableTriangles(mesh)).unit();
 }
 
 }  // namespace pdc
