@@ -73,6 +73,17 @@ void addNoiseOptions(CLI::App& command, DecimateOptions& options) {
               "is no noise)");
 }
 
+/// Null where pairs without an edge were none.
+Json toJson(const std::optional<PairReport>& pairs) {
+  if (!pairs) return nullptr;
+  return {{"merges", pairs->merges},
+          {"duplicate_faces", pairs->duplicateFaces},
+          {"components_before", pairs->componentsBefore},
+          {"components", pairs->componentsAfter},
+          {"non_manifold_edges", pairs->nonManifoldEdges},
+          {"non_manifold_vertices", pairs->nonManifoldVertices}};
+}
+
 Json toJson(const DecimateRequest& request, const DecimateRun& run) {
   const DecimateReport& r = run.report;
   return {{"input", request.input.string()},
@@ -99,6 +110,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
           {"refused_errors", r.refusedErrors},
           {"degenerate_faces", r.degenerateFaces},
           {"non_manifold_vertices", r.nonManifoldVertices},
+          {"pairs", toJson(r.pairs)},
           {"bytes", run.bytesWritten},
           {"seconds", {{"read", run.secondsRead}, {"decimate", run.secondsDecimate}, {"write", run.secondsWrite}}},
           {"warnings", run.warnings}};
@@ -110,6 +122,10 @@ void printSummary(const DecimateRequest& request, const DecimateRun& run) {
              r.verticesAfter, run.bytesWritten);
   fmt::print("noise {:.2g} mean edges; sigma_n {:.2g}, memory {:.2g}\n", r.noise, r.sigmaNormal, r.memory);
   if (request.options.error) fmt::print("no point of either surface is farther than {:.4g} from the other\n", r.error);
+  if (r.pairs)
+    fmt::print("{} merges without an edge; {} components of {}; {} non-manifold edges, {} non-manifold vertices\n",
+               r.pairs->merges, r.pairs->componentsAfter, r.pairs->componentsBefore, r.pairs->nonManifoldEdges,
+               r.pairs->nonManifoldVertices);
   fmt::print("{:.2f} s: reading {:.2f}, decimating {:.2f}, writing {:.2f}\n",
              run.secondsRead + run.secondsDecimate + run.secondsWrite, run.secondsRead, run.secondsDecimate,
              run.secondsWrite);
@@ -128,7 +144,7 @@ std::vector<std::string> warningsOf(const DecimateRequest& request, const Decima
         fmt::format("{} triangles are left: each further collapse would change the topology, turn a face "
                     "too far (--max-turn) or move a locked vertex",
                     r.facesAfter));
-  if (r.nonManifoldVertices > 0)
+  if (r.nonManifoldVertices > 0 && !r.pairs)
     warnings.push_back(
         fmt::format("the surface is no manifold at {} vertices, which stay as they are", r.nonManifoldVertices));
   if (r.degenerateFaces > 0)
@@ -140,6 +156,13 @@ std::vector<std::string> warningsOf(const DecimateRequest& request, const Decima
 void checkRequest(const DecimateRequest& request) {
   if (!request.faces && !request.options.ratio && !request.options.error)
     throw CLI::ValidationError("--faces", "or --ratio or --error is required");
+  // With pairs nothing looks for intersections, and quadrics are those of the faces given.
+  if (request.options.pairDistance && request.options.sound)
+    throw CLI::ValidationError("--pair-distance", "excludes --sound");
+  if (request.options.pairDistance && request.options.error)
+    throw CLI::ValidationError("--pair-distance", "excludes --error");
+  if (request.options.pairDistance && request.options.memory.value_or(1) != 1)
+    throw CLI::ValidationError("--pair-distance", "needs --memory 1, or auto");
   checkMeshPath(request.output);
   checkJsonPath(request.json);
   checkJsonReplaces(request.json, request.input, request.output);
@@ -194,6 +217,11 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       ->group(quadrics);
   command.add_flag("--no-fit", request.noFit, "Leave out the least squares at the end")->group(quadrics);
   command.add_flag("--lock-boundary", options.lockBoundary, "Vertices at boundaries stay")->group(quadrics);
+  addLength(command, "--pair-distance", options.pairDistance,
+            "Merge vertices closer than T without an edge, too, in world\nunits, or mean edge lengths with L as in 2L "
+            "(none)")
+      ->type_name("T|TL")
+      ->group(quadrics);
   const auto output = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(output);
   command.add_option("--json", request.json, "Report for programs; - is standard output")

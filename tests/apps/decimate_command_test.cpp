@@ -113,6 +113,36 @@ TEST(DecimateCommand, PolygonsAndPropertiesPass) {
   for (const float height : fewer.values<float>("height")) EXPECT_EQ(height, 2.5F);
 }
 
+TEST(DecimateCommand, MergesWhatIsCloserThanThePairDistance) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "cubes.ply", out = folder / "bar.ply";
+  Mesh cubes = cube(4);  // Edges are 0.5 and 0.71 long, 0.57 on average.
+  for (std::size_t v = 0, size = cubes.positions.size(); v < size; ++v)
+    cubes.positions.push_back(cubes.positions[v] + Vec3f{2.1F, 0, 0});
+  for (std::size_t t = 0, size = cubes.triangles.size(); t < size; ++t) {
+    Triangle other = cubes.triangles[t];
+    for (std::uint32_t& v : other) v += static_cast<std::uint32_t>(cubes.positions.size() / 2);
+    cubes.triangles.push_back(other);
+  }
+  writeMesh(cubes, in);
+  const Outcome outcome = runPdc({"decimate", in, out, "--faces", "12", "--pair-distance", "0.2L", "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  const Json pairs = Json::parse(outcome.out)["pairs"];
+  EXPECT_EQ(pairs["merges"], 4);
+  EXPECT_EQ(pairs["components_before"], 2);
+  EXPECT_EQ(pairs["components"], 1);
+  EXPECT_EQ(pairs["non_manifold_edges"], 0);
+  EXPECT_EQ(pairs["non_manifold_vertices"], 0);
+  EXPECT_EQ(runPdc({"check", out}).exitCode, 0);
+
+  const Outcome said = runPdc({"decimate", in, out, "--faces", "12", "--pair-distance", "0.11"});
+  EXPECT_NE(said.out.find("4 merges without an edge; 1 components of 2; 0 non-manifold edges"), std::string::npos)
+      << said.out;
+  const Outcome apart = runPdc({"decimate", in, out, "--faces", "24", "--pair-distance", "0.09", "--json", "-"});
+  EXPECT_EQ(Json::parse(apart.out)["pairs"]["components"], 2);
+  EXPECT_EQ(Json::parse(runPdc({"decimate", in, out, "--faces", "24", "--json", "-"}).out)["pairs"], nullptr);
+}
+
 TEST(DecimateCommand, RefusesInOneLine) {
   const TemporaryFolder folder;
   const std::string in = folder / "ball.ply", out = folder / "small.ply";
@@ -133,6 +163,10 @@ TEST(DecimateCommand, RefusesInOneLine) {
   refuses({"--faces", "9", "--memory", "2"}, 2, {"--memory", "2", "0 to 1"});
   refuses({"--faces", "9", "--quadric", "cubic"}, 2, {"--quadric", "cubic", "probabilistic-plane"});
   refuses({"--faces", "9", "--max-turn", "100"}, 2, {"--max-turn", "100", "90"});
+  for (const std::string distance : {"0", "-1", "inf", "nan", "L", "0L", "2M", "1,2"})
+    refuses({"--faces", "9", "--pair-distance=" + distance}, 2, {"--pair-distance", distance, "above 0"});
+  refuses({"--faces", "9", "--pair-distance", "2L", "--sound"}, 2, {"--pair-distance", "--sound"});
+  refuses({"--faces", "9", "--pair-distance", "2L", "--memory", "0.5"}, 2, {"--pair-distance", "--memory", "1"});
   refuses({"--faces", "9", "--json", in}, 2, {"--json", "INPUT"});
   expectOneLineRefusal(runPdc({"decimate", folder / "none.ply", out, "--faces", "9"}), 1, {"none.ply"});
   expectOneLineRefusal(runPdc({"decimate", in, folder / "out.txt", "--faces", "9"}), 1, {"out.txt"});

@@ -18,8 +18,10 @@ enum class CollapsePlacement {
 
 /// A length, above 0 and finite.
 struct MeshLength {
+  MeshLength(double length, bool ofMeanEdges = false) : value(length), inMeanEdges(ofMeanEdges) {}
+
   double value;
-  bool inMeanEdges = false;  ///< In mean edge lengths of the mesh given; otherwise in world units.
+  bool inMeanEdges;  ///< In mean edge lengths of the mesh given; otherwise in world units.
 };
 
 struct DecimateOptions {
@@ -62,9 +64,9 @@ struct DecimateOptions {
   /// Whether the vertices left are moved to where their faces lie nearest to the surface given, in the least squares;
   /// those of kSubset never are, nor is anything where there is a bound on the error.
   bool fit = true;
-  /// Contracts pairs of vertices that are closer than this, too, in world units, above 0: what lies close together
-  /// merges. Quadrics have a memory of 1 then, nothing is fitted, and neither another memory nor `sound` is possible.
-  std::optional<double> pairDistance{};
+  /// Contracts pairs of vertices that are closer than this, too: what lies close together merges. Quadrics have a
+  /// memory of 1 then, nothing is fitted, and neither another memory nor `sound` nor `error` is possible.
+  std::optional<MeshLength> pairDistance{};
 };
 
 /// Why decimation ended.
@@ -128,11 +130,6 @@ struct DecimateReport {
 /// meshes, and 32 for each close pair.
 [[nodiscard]] Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report = nullptr,
                             const Monitor& monitor = {});
-
-/// The mean length of the edges of a mesh's triangles, in world units, as decimate() reports it: each edge counts once
-/// for each of its faces, and faces that name a vertex twice or are not finite do not. 1 if there are no others.
-/// \throws as decimate().
-[[nodiscard]] double meanEdgeLength(const Mesh& mesh);
 
 /// The standard deviation of the noise that the vertices of a triangle mesh seem to have, in mean edge lengths: from by
 /// how much the surface bends otherwise at an edge than at the edges it meets, of which two must be like it. Neither

@@ -20,12 +20,16 @@
 namespace pdc {
 namespace {
 
+bool isLength(const std::optional<MeshLength>& l) { return !l || (l->value > 0 && std::isfinite(l->value)); }
+
+double inWorld(const MeshLength& length, double meanEdge) { return length.value * (length.inMeanEdges ? meanEdge : 1); }
+
 void check(const DecimateOptions& o) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(fmt::format("decimate: {}", what));
   };
   require(o.faces || o.ratio || o.error, "neither a number of faces nor a ratio nor an error is set");
-  require(!o.error || (o.error->value > 0 && std::isfinite(o.error->value)), "the error is not above 0");
+  require(isLength(o.error), "the error is not above 0 and finite");
   require(!o.ratio || (*o.ratio > 0 && *o.ratio <= 1), "the ratio is not above 0 and at most 1");
   require(!o.sigmaNormal || (*o.sigmaNormal >= 0 && std::isfinite(*o.sigmaNormal)), "sigma_n is not 0 or more");
   require(!o.sigmaPosition || (*o.sigmaPosition >= 0 && std::isfinite(*o.sigmaPosition)), "sigma_p is not 0 or more");
@@ -33,9 +37,9 @@ void check(const DecimateOptions& o) {
   require(!o.weld || (*o.weld >= 0 && std::isfinite(*o.weld)), "the distance to weld within is not 0 or more");
   require(o.maxTurn > 0 && o.maxTurn <= 90, "the largest turn is not above 0 and at most 90 degrees");
   require(o.boundaryWeight >= 0 && std::isfinite(o.boundaryWeight), "the boundary's weight is not 0 or more");
-  require(!o.pairDistance || (*o.pairDistance > 0 && std::isfinite(*o.pairDistance)),
-          "the distance of pairs is not above 0 and finite");
+  require(isLength(o.pairDistance), "the distance of pairs is not above 0 and finite");
   require(!o.pairDistance || !o.sound, "with a distance of pairs nothing keeps faces from intersecting");
+  require(!o.pairDistance || !o.error, "with a distance of pairs nothing bounds the error");
   require(!o.pairDistance || o.memory.value_or(1) == 1, "with a distance of pairs the memory is 1");
 }
 
@@ -118,11 +122,6 @@ std::size_t targetOf(const DecimateOptions& options, std::size_t faces) {
   return std::max(asShare, options.faces.value_or(0));
 }
 
-std::optional<double> errorOf(const DecimateOptions& options, double meanEdge) {
-  if (!options.error) return std::nullopt;
-  return options.error->value * (options.error->inMeanEdges ? meanEdge : 1);
-}
-
 /// Welds a copy first. Faces wanted are counted as a share of those given, before that.
 Mesh decimateWelded(const Mesh& mesh, const DecimateOptions& options, DecimateReport& facts, const Monitor& monitor) {
   Mesh welded = mesh;
@@ -154,7 +153,7 @@ Mesh contractPairs(detail::DecimatedSurface& surface, const Mesh& mesh, const De
   const detail::PairContractionRule rule{
       targetOf(options, facts.facesBefore),
       {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
-      *options.pairDistance / surface.frame.unit(),
+      inWorld(*options.pairDistance, facts.meanEdge) / surface.frame.unit(),
       options.placement == CollapsePlacement::kSubset,
       std::cos(options.maxTurn * std::numbers::pi / 180),
       options.lockBoundary};
@@ -206,15 +205,16 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   if (options.pairDistance) return contractPairs(surface, mesh, options, facts, monitor);
   const detail::GivenSurface given{surface.positions, surface.faces};
   detail::InterpolatedProperties properties(mesh);
-  const detail::DecimationRule rule{targetOf(options, facts.facesBefore),
-                                    errorOf(options, facts.meanEdge),
-                                    {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
-                                    facts.memory,
-                                    !options.sigmaNormal,
-                                    !options.memory,
-                                    options.placement == CollapsePlacement::kSubset,
-                                    std::cos(options.maxTurn * std::numbers::pi / 180),
-                                    options.sound};
+  const detail::DecimationRule rule{
+      targetOf(options, facts.facesBefore),
+      options.error ? std::optional(inWorld(*options.error, facts.meanEdge)) : std::nullopt,
+      {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
+      facts.memory,
+      !options.sigmaNormal,
+      !options.memory,
+      options.placement == CollapsePlacement::kSubset,
+      std::cos(options.maxTurn * std::numbers::pi / 180),
+      options.sound};
   detail::Decimation decimation(surface, given, properties, rule);
   decimation.run(monitor);
   if (options.placement == CollapsePlacement::kMinimizer && options.fit && !options.error) {
@@ -236,12 +236,6 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   facts.collapses = decimation.collapses();
   facts.limitedMoves = decimation.limitedMoves();
   return result;
-}
-
-double meanEdgeLength(const Mesh& mesh) {
-  detail::checkSizes(mesh, "meanEdgeLength");
-  detail::checkIndices(mesh);
-  return detail::LocalFrame(mesh, usableTriangles(mesh)).unit();
 }
 
 }  // namespace pdc

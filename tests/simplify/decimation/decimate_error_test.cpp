@@ -88,8 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, DecimateError, testing::Range(0, 8),
                          [](const auto& shape) { return caseOf(shape.param).name; });
 
 TEST(DecimateErrorBound, LetsFlatPartsGo) {
-  EXPECT_EQ(decimate(test::cube(12), {.error = MeshLength{1e-3}}).triangles.size(), 12u);
-  EXPECT_EQ(decimate(test::plate(24), {.error = MeshLength{1e-3}}).triangles.size(), 2u);
+  EXPECT_EQ(decimate(test::cube(12), {.error = 1e-3}).triangles.size(), 12u);
+  EXPECT_EQ(decimate(test::plate(24), {.error = 1e-3}).triangles.size(), 2u);
 }
 
 TEST(DecimateErrorBound, IsUsedWell) {
@@ -104,9 +104,9 @@ TEST(DecimateErrorBound, IsUsedWell) {
 TEST(DecimateErrorBound, EndsAtTheFirstTargetThatIsMet) {
   const Mesh ball = test::sphere(16);
   DecimateReport report;
-  EXPECT_EQ(decimate(ball, {.faces = 2000, .error = MeshLength{0.5}}, &report).triangles.size(), 2000u);
+  EXPECT_EQ(decimate(ball, {.faces = 2000, .error = 0.5}, &report).triangles.size(), 2000u);
   EXPECT_EQ(report.end, DecimateEnd::kReached);
-  EXPECT_GT(decimate(ball, {.faces = 100, .error = MeshLength{0.001}}, &report).triangles.size(), 100u);
+  EXPECT_GT(decimate(ball, {.faces = 100, .error = 0.001}, &report).triangles.size(), 100u);
   EXPECT_EQ(report.end, DecimateEnd::kError);
   EXPECT_GT(report.refusedErrors, 0u);
 }

@@ -70,7 +70,7 @@ DecimateOptions someOptions(const Mesh& mesh, Random& random) {
   options.placement = below(random, 3) == 0 ? CollapsePlacement::kSubset : CollapsePlacement::kMinimizer;
   options.lockBoundary = below(random, 5) == 0;
   options.maxTurn = below(random, 4) == 0 ? 90 : 75;
-  options.pairDistance = kDistances[below(random, 6)] * meanEdgeLength(mesh);
+  options.pairDistance = MeshLength{kDistances[below(random, 6)], true};
   return options;
 }
 

@@ -272,6 +272,7 @@ TEST(PairContraction, RefusesWhatIsOutOfRange) {
   refuses({.faces = 1, .pairDistance = std::numeric_limits<double>::infinity()});
   refuses({.faces = 1, .pairDistance = std::numeric_limits<double>::quiet_NaN()});
   refuses({.faces = 1, .sound = true, .pairDistance = 1});
+  refuses({.faces = 1, .error = 1, .pairDistance = 1});
   refuses({.faces = 1, .memory = 0.5, .pairDistance = 1});
   EXPECT_THROW(static_cast<void>(decimate(plate(30), {.faces = 1, .pairDistance = 10})), Error) << "too many pairs";
   EXPECT_TRUE(decimate({}, {.faces = 0, .pairDistance = 1}).positions.empty());
@@ -282,17 +283,6 @@ TEST(PairContraction, StopsWhenAsked) {
   const Monitor monitor{.progress = [&](const char*, double) { stop = true; }, .stop = &stop};
   const DecimateOptions options{.faces = 100, .pairDistance = 0.01};
   EXPECT_THROW(static_cast<void>(decimate(sphere(20), options, nullptr, monitor)), Cancelled);
-}
-
-TEST(MeanEdgeLength, IsThatOfTheReport) {
-  Mesh mesh = sphere(10);
-  DecimateReport report;
-  static_cast<void>(decimate(mesh, {.faces = 100}, &report));
-  EXPECT_EQ(meanEdgeLength(mesh), report.meanEdge);
-  mesh = {};
-  mesh.positions = {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 0, 1}};
-  EXPECT_DOUBLE_EQ(meanEdgeLength(mesh), 4);
 }
 
 }  // namespace
