@@ -5,8 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -48,8 +48,6 @@ std::vector<std::uint32_t> sewnNeighbours(std::span<const StarCorner> starA, std
   std::set_intersection(atA.begin(), atA.end(), atB.begin(), atB.end(), std::back_inserter(sewn));
   return sewn;
 }
-
-bool isFinite(const Vec3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
 
@@ -225,7 +223,6 @@ PairContraction::Candidate PairContraction::pop() {
 
 bool PairContraction::isAllowed(const Trial& trial) {
   const auto& [a, b, isEdge, cost, to] = trial;
-  if (!isFinite(to.place)) return false;
   mFaces.findStar(a, mStarA);
   mFaces.findStar(b, mStarB);
   mStaysManifold = isEdge && mManifolds.isManifold(mStarA) && mManifolds.isManifold(mStarB);

@@ -87,7 +87,6 @@ TEST(DamagedMeshes, PairsAreContractedAllTheSame) {
         << seed;
     EXPECT_LE(fewer.triangles.size(), mesh.triangles.size());
     EXPECT_EQ(facts.components, report.pairs->componentsAfter) << seed;
-    EXPECT_LE(report.pairs->componentsAfter, report.pairs->componentsBefore) << seed;
     merged += report.pairs->merges > 0;
     reached += report.end == DecimateEnd::kReached;
     if (seed % 10 != 0) continue;

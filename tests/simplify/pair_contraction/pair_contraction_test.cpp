@@ -280,9 +280,35 @@ TEST(PairContraction, RefusesWhatIsOutOfRange) {
 
 TEST(PairContraction, StopsWhenAsked) {
   std::atomic<bool> stop{false};
-  const Monitor monitor{.progress = [&](const char*, double) { stop = true; }, .stop = &stop};
+  std::atomic<int> calls{0};
+  const auto progress = [&](const char*, double) {
+    ++calls;
+    stop = true;
+  };
   const DecimateOptions options{.faces = 100, .pairDistance = 0.01};
-  EXPECT_THROW(static_cast<void>(decimate(sphere(20), options, nullptr, monitor)), Cancelled);
+  const Monitor monitor{.progress = progress, .stop = &stop};
+  EXPECT_THROW(static_cast<void>(decimate(sphere(40), options, nullptr, monitor)), Cancelled);
+  EXPECT_EQ(calls, 1) << "nothing was done after it";
+}
+
+TEST(PairContraction, NoFaceTurnsFarther) {
+  DecimateReport report;
+  const Mesh ball = sphere(8);
+  EXPECT_GT(decimate(ball, {.faces = 0, .maxTurn = 5, .pairDistance = 0.01}, &report).triangles.size(), 100u);
+  EXPECT_EQ(report.end, DecimateEnd::kNoCollapseLeft);
+  EXPECT_LT(decimate(ball, {.faces = 0, .maxTurn = 90, .pairDistance = 0.01}).triangles.size(), 20u);
+}
+
+// What was an edge is none any more when its faces are gone.
+TEST(PairContraction, EdgesThatAreGoneJoinNothing) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0.1F, 0}, {2, 0, 0}, {3, 1, 0}, {3, -1, 0}, {-1, -1, 0}, {-1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {2, 4, 3}, {0, 6, 5}};
+  DecimateReport report;
+  const Mesh two = decimate(mesh, {.faces = 0, .pairDistance = 0.01}, &report);
+  EXPECT_EQ(two.triangles.size(), 2u);
+  EXPECT_EQ(report.pairs->merges, 0u);
+  EXPECT_EQ(report.pairs->componentsAfter, 2u);
 }
 
 }  // namespace
