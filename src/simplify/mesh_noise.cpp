@@ -17,6 +17,9 @@ namespace {
 /// So many vertices, evenly spread over their numbers, tell the noise well enough.
 constexpr std::size_t kSample = 4096;
 
+/// Vertices with more faces say nothing: each edge there would be compared with all the others.
+constexpr std::size_t kMostFaces = 32;
+
 /// Noise per bend that differs, in radians: found with noise of a tenth of an edge on spheres.
 constexpr double kNoisePerJump = 1.25;
 
@@ -30,6 +33,7 @@ class BendsAt {
     const std::span<const StarCorner> star = mStars[vertex];
     const Vec3d& p = mPositions[vertex];
     mBends.clear();
+    if (star.size() > kMostFaces) return;
     for (const StarCorner& c : star) {
       const StarCorner* const other = cornerAfter(star, c.next);
       const double angle =

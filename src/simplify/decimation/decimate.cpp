@@ -171,6 +171,65 @@ Mesh contractPairs(detail::DecimatedSurface& surface, const Mesh& mesh, const De
   return result;
 }
 
+/// The surface of a mesh's usable faces, and what the report says of it.
+detail::DecimatedSurface surfaceOf(const Mesh& mesh, const DecimateOptions& options, DecimateReport& facts) {
+  detail::DecimatedSurface surface;
+  surface.faces = usableTriangles(mesh);
+  facts.degenerateFaces = facts.facesBefore - surface.faces.size();
+  surface.frame = detail::LocalFrame(mesh, surface.faces);
+  facts.meanEdge = surface.frame.unit();
+  surface.positions.reserve(mesh.positions.size());
+  for (const Vec3f& p : mesh.positions) surface.positions.push_back(surface.frame.local(p));
+  surface.given = mesh.positions;
+  detail::VertexStars stars;
+  stars.build(surface.faces, surface.positions.size());
+  facts.nonManifoldVertices = lockVertices(surface, stars, options.lockBoundary);
+  if (!options.sigmaProperty.empty())
+    surface.noise = detail::VertexNoise(mesh, options.sigmaProperty, surface.frame.unit());
+  chooseNoise(surface, stars, options, facts);
+  return surface;
+}
+
+/// What decimate() does otherwise.
+Mesh collapseEdges(detail::DecimatedSurface& surface, const Mesh& mesh, const DecimateOptions& options,
+                   DecimateReport& facts, const Monitor& monitor) {
+  const detail::DecimationRule rule{
+      targetOf(options, facts.facesBefore),
+      options.error ? std::optional(inWorld(*options.error, facts.meanEdge)) : std::nullopt,
+      {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
+      facts.memory,
+      !options.sigmaNormal,
+      !options.memory,
+      options.placement == CollapsePlacement::kSubset,
+      std::cos(options.maxTurn * std::numbers::pi / 180),
+      options.sound};
+  const detail::GivenSurface given{surface.positions, surface.faces};
+  detail::InterpolatedProperties properties(mesh);
+  std::vector<std::uint32_t> became;
+  {
+    detail::Decimation decimation(surface, given, properties, rule);
+    decimation.run(monitor);
+    facts.rounds = decimation.rounds();
+    facts.collapses = decimation.collapses();
+    facts.limitedMoves = decimation.limitedMoves();
+    facts.refusedIntersections = decimation.intersectionRefusals();
+    facts.refusedErrors = decimation.errorRefusals();
+    became = decimation.takeBecame();
+  }
+  if (options.placement == CollapsePlacement::kMinimizer && options.fit && !options.error) {
+    detail::fitSurface(surface, given,
+                       {became, rule.leastCosine, facts.sigmaNormal, !options.sigmaNormal, options.sound}, monitor);
+  }
+  Mesh result = meshOf(surface, properties, mesh);
+  facts.facesAfter = result.triangles.size();
+  facts.verticesAfter = result.positions.size();
+  facts.error = rule.error.value_or(0);
+  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached
+              : facts.refusedErrors > 0            ? DecimateEnd::kError
+                                                   : DecimateEnd::kNoCollapseLeft;
+  return result;
+}
+
 }  // namespace
 
 Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* report, const Monitor& monitor) {
@@ -184,58 +243,9 @@ Mesh decimate(const Mesh& mesh, const DecimateOptions& options, DecimateReport* 
   facts.facesBefore = detail::triangleCount(mesh);
   facts.verticesBefore = mesh.positions.size();
   monitor.throwIfStopped();
-
-  detail::DecimatedSurface surface;
-  surface.faces = usableTriangles(mesh);
-  facts.degenerateFaces = facts.facesBefore - surface.faces.size();
-  surface.frame = detail::LocalFrame(mesh, surface.faces);
-  facts.meanEdge = surface.frame.unit();
-  surface.positions.reserve(mesh.positions.size());
-  for (const Vec3f& p : mesh.positions) surface.positions.push_back(surface.frame.local(p));
-  surface.given = mesh.positions;
-  {
-    detail::VertexStars stars;
-    stars.build(surface.faces, surface.positions.size());
-    facts.nonManifoldVertices = lockVertices(surface, stars, options.lockBoundary);
-    if (!options.sigmaProperty.empty())
-      surface.noise = detail::VertexNoise(mesh, options.sigmaProperty, surface.frame.unit());
-    chooseNoise(surface, stars, options, facts);
-  }
-
-  if (options.pairDistance) return contractPairs(surface, mesh, options, facts, monitor);
-  const detail::GivenSurface given{surface.positions, surface.faces};
-  detail::InterpolatedProperties properties(mesh);
-  const detail::DecimationRule rule{
-      targetOf(options, facts.facesBefore),
-      options.error ? std::optional(inWorld(*options.error, facts.meanEdge)) : std::nullopt,
-      {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
-      facts.memory,
-      !options.sigmaNormal,
-      !options.memory,
-      options.placement == CollapsePlacement::kSubset,
-      std::cos(options.maxTurn * std::numbers::pi / 180),
-      options.sound};
-  detail::Decimation decimation(surface, given, properties, rule);
-  decimation.run(monitor);
-  if (options.placement == CollapsePlacement::kMinimizer && options.fit && !options.error) {
-    detail::fitSurface(surface, given,
-                       {decimation.became(), rule.leastCosine, facts.sigmaNormal, !options.sigmaNormal, options.sound},
-                       monitor);
-  }
-
-  facts.refusedIntersections = decimation.intersectionRefusals();
-  facts.refusedErrors = decimation.errorRefusals();
-  Mesh result = meshOf(surface, properties, mesh);
-  facts.facesAfter = result.triangles.size();
-  facts.verticesAfter = result.positions.size();
-  facts.error = rule.error.value_or(0);
-  facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached
-              : facts.refusedErrors > 0            ? DecimateEnd::kError
-                                                   : DecimateEnd::kNoCollapseLeft;
-  facts.rounds = decimation.rounds();
-  facts.collapses = decimation.collapses();
-  facts.limitedMoves = decimation.limitedMoves();
-  return result;
+  detail::DecimatedSurface surface = surfaceOf(mesh, options, facts);
+  return options.pairDistance ? contractPairs(surface, mesh, options, facts, monitor)
+                              : collapseEdges(surface, mesh, options, facts, monitor);
 }
 
 }  // namespace pdc

@@ -43,7 +43,7 @@ class Decimation {
   void run(const Monitor& monitor);
 
   /// By vertex given, that into which it was collapsed, or itself.
-  [[nodiscard]] const std::vector<std::uint32_t>& became() const { return mBecame; }
+  [[nodiscard]] std::vector<std::uint32_t> takeBecame() { return std::move(mBecame); }
   [[nodiscard]] std::size_t rounds() const { return mRounds; }
   [[nodiscard]] std::size_t collapses() const { return mCollapses; }
   [[nodiscard]] std::size_t limitedMoves() const { return mLimitedMoves; }
