@@ -26,6 +26,11 @@ constexpr double kShareOfRound = 0.6;
 /// a collapse.
 constexpr std::size_t kLeastOfRound = 2;
 
+/// An edge that costs so many times more than one that has to wait for its neighbour waits, too. Flat parts cost next
+/// to nothing: without this the last rounds took corners of one in seventeen plates of 200 to 26,000 faces with
+/// classical quadrics, while edges beside their collapses waited. Scans and CAD parts come out the same, byte for byte.
+constexpr float kMostAhead = 1e8F;
+
 /// Costs at or below this, in mean edge lengths to the fourth power, are rounding.
 constexpr float kNoCost = 1e-14F;
 
@@ -252,6 +257,7 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
   std::vector<ChosenCollapse> chosen;
   std::vector<std::optional<EdgeCollapse>> to(kBlock);
   std::size_t faces = mSurface.faces.size();
+  float most = kNever;
   // Block by block, since most of the later ones are touched by earlier ones.
   for (std::size_t first = 0; first < candidates.size() && faces > mRule.targetFaces; first += kBlock) {
     const std::size_t size = std::min(kBlock, candidates.size() - first);
@@ -264,6 +270,8 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
     });
     for (std::size_t i = 0; i < size && faces > mRule.targetFaces; ++i) {
       const Candidate& c = candidates[first + i];
+      if (c.cost > most) return chosen;
+      if (touched(c)) most = std::min(most, kMostAhead * c.cost);
       if (!to[i] || touched(c)) continue;
       for (const std::uint32_t v : {c.a, c.b}) {
         mTouched[v] = round;
