@@ -11,15 +11,22 @@ std::vector<DecimationPeer> decimationPeers() {
 #ifdef PDC_HAVE_MESHOPTIMIZER
       {"meshoptimizer", meshoptSimplify},
 #endif
+#ifdef PDC_HAVE_VTK
+      {"VTK quadrics", vtkQuadrics},
+      {"VTK DecimatePro", vtkPro},
+#endif
   };
 }
 
 std::vector<std::string> missingDecimationPeers() {
-#ifdef PDC_HAVE_MESHOPTIMIZER
-  return {};
-#else
-  return {"meshoptimizer"};
+  std::vector<std::string> missing;
+#ifndef PDC_HAVE_MESHOPTIMIZER
+  missing.emplace_back("meshoptimizer");
 #endif
+#ifndef PDC_HAVE_VTK
+  missing.emplace_back("VTK");
+#endif
+  return missing;
 }
 
 }  // namespace pdc::eval

@@ -48,4 +48,8 @@ struct DecimationPeer {
 /// meshopt_simplify, without a limit of the error.
 [[nodiscard]] Decimated meshoptSimplify(const Mesh& mesh, std::size_t targetFaces);
 
+/// VTK: vtkQuadricDecimation; and vtkDecimatePro, which removes vertices, told to keep the topology as the others do.
+[[nodiscard]] Decimated vtkQuadrics(const Mesh& mesh, std::size_t targetFaces);
+[[nodiscard]] Decimated vtkPro(const Mesh& mesh, std::size_t targetFaces);
+
 }  // namespace pdc::eval
