@@ -20,6 +20,13 @@ Json toJson(const std::optional<GridMeaning>& meaning) {
           {"half_width_voxels", meaning->halfWidth}};
 }
 
+Json adaptiveJson(const MeshRun& run) {
+  if (!run.options.adaptive) return nullptr;
+  return {{"distance", *run.options.adaptive},
+          {"triangles_before", run.contour.trianglesBefore},
+          {"largest_vertex_distance", run.contour.adaptedDistance}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json sigmaNormalJson(const std::optional<double>& sigma) {
@@ -51,6 +58,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
+          {"adaptive", adaptiveJson(run)},
           {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
           {"median_sigma_n", run.contour.medianSigmaNormal},
           {"normal_noise", run.contour.normalNoise},

@@ -119,6 +119,8 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   run.planeOrigin = input.planeOrigin;
   run.valueNoise = input.valueNoise;
   run.options = request.contourOptions(input.sigmaNormal);
+  if (request.adaptive)
+    run.options.adaptive = request.adaptive->value * (request.adaptive->suffixed ? input.source->map().voxelSize() : 1);
 
   checkForecast(request, input, run);
   Mesh mesh;
@@ -176,12 +178,16 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
   if (run.verticesOnBox > 0)
     fmt::print("the solid is cut off by the box: {} vertices on it; a larger box has more of it, --open no walls\n",
                run.verticesOnBox);
-  if (run.contour.creasePatches > 0)
+  if (run.contour.creasePatches > 0 && !run.options.adaptive)
     fmt::print("{:.2g} % of the vertices on creases\n",
                1e2 * static_cast<double>(run.contour.creasePatches) / static_cast<double>(run.vertices));
   if (!run.options.sigmaNormal)
     fmt::print("sigma_n from the data: median {:.2g}; noise of the normals {:.2g}\n", run.contour.medianSigmaNormal,
                run.contour.normalNoise);
+  if (run.options.adaptive)
+    fmt::print(
+        "{} triangles before; no point of either surface is farther than {:.4g} from the other, vertices {:.4g}\n",
+        run.contour.trianglesBefore, *run.options.adaptive, run.contour.adaptedDistance);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
              run.secondsContour, run.secondsWrite);
 }

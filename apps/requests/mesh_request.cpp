@@ -49,6 +49,11 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--open", request.open, "Surface ends where the data ends, instead of being closed")->group(group);
   addNonFinite(command, request.acceptNonFinite)->group(group);
   command.add_flag("--triangles", request.triangles, "Triangles instead of quads")->group(group);
+  addVoxelLength(command, "--adaptive", request.adaptive,
+                 "Fewer faces where the surface is simple, no point farther than\nthis from the full mesh or back; "
+                 "0.1v: in voxels")
+      ->type_name("E|Ev")
+      ->group(group);
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
   command
       .add_flag("--confidence", request.confidence,

@@ -7,6 +7,7 @@
 
 #include "pdc/extract/contour.h"
 #include "pdc/io/open_input.h"
+#include "terminal/length_option.h"
 
 namespace pdc {
 
@@ -22,6 +23,7 @@ struct MeshRequest {
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
+  std::optional<SuffixedLength> adaptive;
   bool triangles = false, open = false, normals = false, ascii = false;
   bool sigmaFromData = false;   ///< True for --sigma-n auto.
   std::optional<Vec3d> origin;  ///< --origin X,Y,Z.

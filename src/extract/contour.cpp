@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "extract/adapt.h"
 #include "extract/certify/certify.h"
 #include "extract/contour_memory.h"
 #include "extract/faces/fill_mesh.h"
@@ -26,6 +27,11 @@ void checkOptions(const ContourOptions& options, const ContourReport* report) {
     throw std::invalid_argument(fmt::format("contour: sigmaNormal is {}, must be at least 0", *options.sigmaNormal));
   if (options.quadrics && report == nullptr)
     throw std::invalid_argument("contour: quadrics are asked for without a report to put them into");
+  if (options.adaptive && !(*options.adaptive > 0 && std::isfinite(*options.adaptive)))
+    throw std::invalid_argument(
+        fmt::format("contour: the adaptive distance is {}, must be above 0 and finite", *options.adaptive));
+  if (options.adaptive && options.quadrics)
+    throw std::invalid_argument("contour: quadrics are those of the full mesh, which is not what was asked for");
   if (const auto& o = options.origin; o && !(std::isfinite(o->x) && std::isfinite(o->y) && std::isfinite(o->z)))
     throw std::invalid_argument(fmt::format("contour: the origin is ({}, {}, {}), must be finite", o->x, o->y, o->z));
   if (options.threads < 0)
@@ -76,6 +82,11 @@ Mesh run(const HermiteSource& world, const ContourOptions& options, ContourRepor
   if (options.confidence || options.ranks) addVertexConfidence(surface, options, mesh, monitor);
   Buffer<Quadric<float>> quadrics;
   if (options.quadrics) quadrics = vertexQuadrics(surface, sigma, mesh, monitor);
+  detail::Adapted adapted;
+  if (options.adaptive) {
+    adapted = detail::adapt(mesh, *options.adaptive, place.step, options.triangles, monitor);
+    mesh = std::move(adapted.mesh);
+  }
   if (options.triangles) splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),
@@ -92,6 +103,8 @@ Mesh run(const HermiteSource& world, const ContourOptions& options, ContourRepor
                .normalNoise = counts.agreement.sigma(),
                .medianSigmaNormal = counts.sigmas.median(),
                .creasePatches = counts.creases,
+               .trianglesBefore = adapted.trianglesBefore,
+               .adaptedDistance = adapted.distance,
                .uncertified = certified.uncertified,
                .quadrics = std::move(quadrics)};
   return mesh;

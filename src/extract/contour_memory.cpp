@@ -10,10 +10,10 @@
 namespace pdc::detail {
 
 double contourMemory(double vertices, const ContourOptions& options) {
-  constexpr double kMesh = 50, kNormals = 12, kEstimates = 48, kTriangles = 24, kQuadrics = 40;
-  const double perVertex = kMesh + (options.normals ? kNormals : 0) +
-                           (options.confidence || options.ranks ? kEstimates : 0) +
-                           (options.triangles ? kTriangles : 0) + (options.quadrics ? kQuadrics : 0);
+  constexpr double kMesh = 50, kNormals = 12, kEstimates = 48, kTriangles = 24, kQuadrics = 40, kAdaptive = 600;
+  const double perVertex =
+      kMesh + (options.normals ? kNormals : 0) + (options.confidence || options.ranks ? kEstimates : 0) +
+      (options.triangles ? kTriangles : 0) + (options.quadrics ? kQuadrics : 0) + (options.adaptive ? kAdaptive : 0);
   return perVertex * vertices;
 }
 

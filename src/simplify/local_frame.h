@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "math/nearest_multiple.h"
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
@@ -24,6 +25,9 @@ class LocalFrame {
     if (sum > 0) mUnit = sum / (3 * static_cast<double>(faces.size()));
   }
 
+  /// What is mapped back has coordinates that are multiples of a step; 0 for any.
+  void setStep(double step) { mStep = step; }
+
   /// The mean edge length.
   [[nodiscard]] double unit() const { return mUnit; }
   [[nodiscard]] Vec3d local(const Vec3f& p) const { return (vecCast<double>(p) - mCenter) * (1 / mUnit); }
@@ -31,6 +35,7 @@ class LocalFrame {
   [[nodiscard]] Vec3f world(const Vec3d& p) const {
     constexpr double kMost = std::numeric_limits<float>::max();
     Vec3d w = p * mUnit + mCenter;
+    if (mStep > 0) w = nearestMultiple(w, mStep);
     for (int i = 0; i < 3; ++i) w[i] = std::clamp(w[i], -kMost, kMost);
     return vecCast<float>(w);
   }
@@ -53,7 +58,7 @@ class LocalFrame {
   }
 
   Vec3d mCenter{};
-  double mUnit = 1;
+  double mUnit = 1, mStep = 0;
 };
 
 }  // namespace pdc::detail

@@ -64,6 +64,9 @@ struct DecimateOptions {
   /// Whether the vertices left are moved to where their faces lie nearest to the surface given, in the least squares;
   /// those of kSubset never are, nor is anything where there is a bound on the error.
   bool fit = true;
+  /// Coordinates of vertices that move are multiples of this, in world units; 0 for whatever single precision holds.
+  /// Not with a distance of pairs.
+  double positionStep = 0;
   /// Contracts pairs of vertices that are closer than this, too: what lies close together merges. Quadrics have a
   /// memory of 1 then, nothing is fitted, and neither another memory nor `sound` nor `error` is possible.
   std::optional<MeshLength> pairDistance{};

@@ -37,6 +37,8 @@ void check(const DecimateOptions& o) {
   require(!o.weld || (*o.weld >= 0 && std::isfinite(*o.weld)), "the distance to weld within is not 0 or more");
   require(o.maxTurn > 0 && o.maxTurn <= 90, "the largest turn is not above 0 and at most 90 degrees");
   require(o.boundaryWeight >= 0 && std::isfinite(o.boundaryWeight), "the boundary's weight is not 0 or more");
+  require(o.positionStep >= 0 && std::isfinite(o.positionStep), "the step of positions is not 0 or more");
+  require(!o.pairDistance || o.positionStep == 0, "with a distance of pairs positions have no step");
   require(isLength(o.pairDistance), "the distance of pairs is not above 0 and finite");
   require(!o.pairDistance || !o.sound, "with a distance of pairs nothing keeps faces from intersecting");
   require(!o.pairDistance || !o.error, "with a distance of pairs nothing bounds the error");
@@ -177,6 +179,7 @@ detail::DecimatedSurface surfaceOf(const Mesh& mesh, const DecimateOptions& opti
   surface.faces = usableTriangles(mesh);
   facts.degenerateFaces = facts.facesBefore - surface.faces.size();
   surface.frame = detail::LocalFrame(mesh, surface.faces);
+  surface.frame.setStep(options.positionStep);
   facts.meanEdge = surface.frame.unit();
   surface.positions.reserve(mesh.positions.size());
   for (const Vec3f& p : mesh.positions) surface.positions.push_back(surface.frame.local(p));
