@@ -64,7 +64,7 @@ TEST_P(Adaptive, StaysWithinTheDistanceAndSound) {
     EXPECT_EQ(facts.components, before.components);
     EXPECT_EQ(facts.boundaryEdges + facts.nonManifoldEdges + facts.nonManifoldVertices + facts.misorientedEdges, 0u);
     // Noise has few simple places.
-    EXPECT_LT(2 * mesh.quads.size() + mesh.triangles.size(), report.trianglesBefore / (GetParam() == 4 ? 1 : 3));
+    EXPECT_LT(2 * mesh.quads.size() + mesh.triangles.size(), report.trianglesBefore / (GetParam() == 4 ? 1 : 2));
   }
 }
 
