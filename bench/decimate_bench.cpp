@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 #include "eval/triangle_input.h"
 #include "pdc/mesh/mesh_comparison.h"
 #include "pdc/mesh/mesh_report.h"

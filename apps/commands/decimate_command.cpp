@@ -168,12 +168,8 @@ void checkRequest(const DecimateRequest& request) {
   checkJsonReplaces(request.json, request.input, request.output);
 }
 
-}  // namespace
-
-void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
+void addTargetOptions(CLI::App& command, DecimateRequest& request) {
   DecimateOptions& options = request.options;
-  command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
   const auto target = "Target, the first that is met";
   addInteger(command, "--faces", request.faces, 0, std::numeric_limits<int>::max(), "Triangles at most")
       ->type_name("N")
@@ -183,16 +179,25 @@ void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
       "Triangles at most, as a share of those given")
       ->type_name("R")
       ->group(target);
-  addReal(
-      command, "--weld", options.weld, [](double v) { return v >= 0 && std::isfinite(v); }, "a finite number >= 0",
-      "Vertices within D of each other become one before all\nelse, in world units; 0: those at one place")
-      ->type_name("D")
-      ->group("Input");
   addLength(
       command, "--error", options.error,
       "No point of either surface goes farther than this from\nthe other; 0.1L: in mean edge lengths. Takes longer")
       ->type_name("E|EL")
       ->group(target);
+}
+
+}  // namespace
+
+void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
+  DecimateOptions& options = request.options;
+  command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  addTargetOptions(command, request);
+  addReal(
+      command, "--weld", options.weld, [](double v) { return v >= 0 && std::isfinite(v); }, "a finite number >= 0",
+      "Vertices within D of each other become one before all\nelse, in world units; 0: those at one place")
+      ->type_name("D")
+      ->group("Input");
   const auto quadrics = "Quadrics";
   addChoice(command, "--quadric", options.quadric, kQuadricWords,
             "What errors are measured by (probabilistic-plane):\nclassical, or with noise")

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 #include "eval/inputs.h"
 #include "eval/shapes.h"
 #include "pdc/error.h"

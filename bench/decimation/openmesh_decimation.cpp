@@ -4,7 +4,7 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 
 namespace pdc::eval {
 namespace {

@@ -3,7 +3,7 @@
 #include <cfloat>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 
 namespace pdc::eval {
 

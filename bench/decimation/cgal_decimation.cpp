@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 
 namespace pdc::eval {
 namespace {

@@ -6,7 +6,7 @@
 #include <vtkQuadricDecimation.h>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 
 namespace pdc::eval {
 namespace {

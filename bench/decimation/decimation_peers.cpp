@@ -1,4 +1,4 @@
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 
 namespace pdc::eval {
 
