@@ -143,6 +143,24 @@ TEST(DecimateCommand, MergesWhatIsCloserThanThePairDistance) {
   EXPECT_EQ(Json::parse(runPdc({"decimate", in, out, "--faces", "24", "--json", "-"}).out)["pairs"], nullptr);
 }
 
+TEST(DecimateCommand, StaysWithinTheError) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.ply", out = folder / "small.ply";
+  writeMesh(sphere(20), in);
+  const Outcome outcome = runPdc({"decimate", in, out, "--error", "0.1L", "--json", "-"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["end"], "error");
+  EXPECT_DOUBLE_EQ(report["error"].get<double>(), 0.1 * report["mean_edge"].get<double>());
+  EXPECT_LT(report["faces"].get<int>(), 1600);
+  const Json compared = Json::parse(runPdc({"info", out, "--reference", in, "--json", "-"}).out);
+  for (const char* way : {"to_reference", "from_reference"})
+    EXPECT_LE(compared["reference"][way]["largest"].get<double>(), report["error"].get<double>() * (1 + 1e-5)) << way;
+  const Outcome both = runPdc({"decimate", in, out, "--error", "0.1", "--faces", "4000"});
+  EXPECT_NE(both.out.find(": 4000 of 4800 triangles"), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find("no point of either surface is farther than 0.1"), std::string::npos) << both.out;
+}
+
 TEST(DecimateCommand, RefusesInOneLine) {
   const TemporaryFolder folder;
   const std::string in = folder / "ball.ply", out = folder / "small.ply";
@@ -165,6 +183,9 @@ TEST(DecimateCommand, RefusesInOneLine) {
   refuses({"--faces", "9", "--max-turn", "100"}, 2, {"--max-turn", "100", "90"});
   for (const std::string distance : {"0", "-1", "inf", "nan", "L", "0L", "2M", "1,2"})
     refuses({"--faces", "9", "--pair-distance=" + distance}, 2, {"--pair-distance", distance, "above 0"});
+  for (const std::string error : {"0", "-1", "inf", "nan", "L", "0L", "2v", "1,2"})
+    refuses({"--error=" + error}, 2, {"--error", error, "above 0"});
+  refuses({"--error", "1", "--pair-distance", "2L"}, 2, {"--pair-distance", "--error"});
   refuses({"--faces", "9", "--pair-distance", "2L", "--sound"}, 2, {"--pair-distance", "--sound"});
   refuses({"--faces", "9", "--pair-distance", "2L", "--memory", "0.5"}, 2, {"--pair-distance", "--memory", "1"});
   refuses({"--faces", "9", "--json", in}, 2, {"--json", "INPUT"});

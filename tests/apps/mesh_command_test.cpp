@@ -239,6 +239,24 @@ TEST_F(MeshCommand, WarnsWhereSinglePrecisionIsTooCoarse) {
   EXPECT_NE(mOutcome.err.find("single precision"), std::string::npos) << mOutcome.err;
 }
 
+TEST_F(MeshCommand, FewerFacesWhereTheSurfaceIsSimple) {
+  const std::string scene = mFolder.write(
+      "box.yaml", "resolution: 40\nbox: [[-1, -1, -1], [1, 1, 1]]\nshape:\n  box: {size: [1.21, 1.13, 1.07]}\n");
+  const std::string out = mFolder / "box.ply";
+  const Outcome outcome = runPdc({"mesh", scene, out, "--adaptive", "0.05v", "--json", "-"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report["triangles"], 12);
+  EXPECT_EQ(report["vertices"], 8);
+  EXPECT_DOUBLE_EQ(report["adaptive"]["distance"].get<double>(), 0.05 * 2 / 40);
+  EXPECT_GT(report["adaptive"]["triangles_before"].get<int>(), 5000);
+  EXPECT_LE(report["adaptive"]["largest_vertex_distance"].get<double>(), 0.0025);
+  EXPECT_EQ(runPdc({"check", out}).exitCode, 0);
+  for (const std::string distance : {"0", "-1v", "inf", "v", "1L", "1,2"})
+    expectOneLineRefusal(runPdc({"mesh", scene, out, "--adaptive=" + distance}), 2,
+                         {"--adaptive", distance, "above 0"});
+}
+
 TEST_F(MeshCommand, QuietSaysNothing) {
   contour({bulletGrid(), "--quiet"});
   EXPECT_EQ(mOutcome.out, "");
