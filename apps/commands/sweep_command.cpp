@@ -75,6 +75,15 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
   SweepInput first = openStep(request, request.mesh, reference, warnings);
   SweepOptions options{.contour = request.mesh.contourOptions(kPapersSigmaNormal), .truth = {}};
   options.contour.origin.reset();  // Wherever the surface lies, its measures should not be those of rounding.
+  if (parameter == SweepParameter::kAdaptive) {
+    std::vector<double> distances = request.adaptive;
+    if (!request.adaptiveInVoxels)
+      for (double& d : distances) d /= first.source->map().voxelSize();
+    options.truth = std::move(first.truth);
+    return sweepAdaptive(*first.source, distances, options, monitor);
+  }
+  if (!request.adaptive.empty() && request.adaptive.front() > 0)
+    (request.adaptiveInVoxels ? options.adaptive : options.contour.adaptive) = request.adaptive.front();
   if (parameter == SweepParameter::kSigmaNormal) {
     options.truth = std::move(first.truth);
     return sweepSigma(*first.source, request.values(), options, monitor);
@@ -117,11 +126,12 @@ void writeAll(const SweepRequest& request, const Sweep& sweep, const SweepDescri
 
 void printSummary(const SweepRequest& request, const Sweep& sweep) {
   const auto shown = [](const std::optional<double>& v) { return v ? fmt::format("{:.4f}", *v) : std::string("-"); };
-  fmt::print("{:>10} {:>12} {:>12} {:>10} {:>12} {:>10} {:>8}\n", namesOf(sweep.parameter).key, "vertex RMS",
-             "crease RMS", "roughness", "min angle 1%", "self-int.", "seconds");
+  fmt::print("{:>10} {:>10} {:>12} {:>12} {:>10} {:>12} {:>10} {:>8}\n", namesOf(sweep.parameter).key, "triangles",
+             "vertex RMS", "crease RMS", "roughness", "min angle 1%", "self-int.", "seconds");
   for (const SweepStep& step : sweep.steps)
-    fmt::print("{:>10.6g} {:>12} {:>12} {:>10.4f} {:>12.2f} {:>10} {:>8.3f}\n", step.value, shown(step.vertexRms),
-               shown(step.creaseRms), step.roughness, step.minimumAngle[0], step.selfIntersections, step.seconds);
+    fmt::print("{:>10.6g} {:>10} {:>12} {:>12} {:>10.4f} {:>12.2f} {:>10} {:>8.3f}\n", step.value, step.triangles,
+               shown(step.vertexRms), shown(step.creaseRms), step.roughness, step.minimumAngle[0],
+               step.selfIntersections, step.seconds);
   fmt::print("Lengths in voxels, angles in degrees. {}\n{}\n", sweep.reason, (request.folder / "index.html").string());
 }
 

@@ -27,6 +27,38 @@ void addReals(CLI::App& command, const std::string& name, std::vector<double>& t
   command.add_option_function<std::string>(name, take, help)->type_name("LIST");
 }
 
+/// Lengths like "0,0.05v": all in voxels, or all in world units, but that 0 is the same in both. \throws
+/// CLI::ValidationError.
+void readDistances(const std::string& text, SweepRequest& request) {
+  const auto refuse = [&text](const char* limit) {
+    throw CLI::ValidationError("--adaptive", fmt::format("'{}' {}", text, limit));
+  };
+  request.adaptive.clear();
+  bool voxels = false, world = false;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const bool suffixed = end > begin && text[end - 1] == 'v';
+    const std::vector<double> value = parseReals(text.substr(begin, end - begin - (suffixed ? 1 : 0)), ',');
+    if (value.size() != 1 || !(value[0] >= 0) || !std::isfinite(value[0]))
+      refuse("is not a list of finite numbers >= 0, separated by commas, with v for voxels");
+    if (std::count(request.adaptive.begin(), request.adaptive.end(), value[0]) > 0) refuse("has a value twice");
+    if (value[0] > 0) (suffixed ? voxels : world) = true;
+    request.adaptive.push_back(value[0]);
+    begin = end + 1;
+  }
+  if (voxels && world) refuse("mixes voxels and world units");
+  request.adaptiveInVoxels = voxels;
+}
+
+void addDistances(CLI::App& command, SweepRequest& request) {
+  command
+      .add_option_function<std::string>(
+          "--adaptive", [&request](const std::string& text) { readDistances(text, request); },
+          "Fewer faces within distances of the full mesh, in world units\n"
+          "or, like 0.05v, in voxels; 0 is the full mesh")
+      ->type_name("LIST");
+}
+
 bool isPlain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
          std::string_view("-_./,=:+@%").find(c) != std::string_view::npos;
@@ -36,6 +68,7 @@ bool isPlain(char c) {
 
 SweepParameter SweepRequest::parameter() const {
   if (isos.size() > 1) return SweepParameter::kIso;
+  if (adaptive.size() > 1) return SweepParameter::kAdaptive;
   return voxelSizes.size() > 1 ? SweepParameter::kVoxelSize : SweepParameter::kSigmaNormal;
 }
 
@@ -45,6 +78,8 @@ const std::vector<double>& SweepRequest::values() const {
       return isos;
     case SweepParameter::kVoxelSize:
       return voxelSizes;
+    case SweepParameter::kAdaptive:
+      return adaptive;
     default:
       return sigmas;
   }
@@ -64,6 +99,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addReals(
       command, "--voxel-size", request.voxelSizes, [](double v) { return v > 0 && std::isfinite(v); },
       "finite numbers > 0", "Of a scene: edges of a cell, in world units");
+  addDistances(command, request);
   addPlacement(command, mesh.placement, "Where vertices may lie (certified), as for pdc mesh");
   command.add_flag("--open", mesh.open, "Surface ends where the data ends");
   addNonFinite(command, mesh.acceptNonFinite);
@@ -79,13 +115,15 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   command.add_flag("--quiet", mesh.quiet, "No summary and no progress bar");
   addThreads(command, mesh.threads);
   command.footer(
-      "One of --sigma-n, --iso and --voxel-size may have several values; that one is swept.\n"
+      "One of --sigma-n, --iso, --voxel-size and --adaptive may have several values; that one is swept.\n"
       "Example: pdc sweep part.vdb report --sigma-n 0,0.02,0.05,0.1,inf --reference part.yaml");
 }
 
 void settleSweepRequest(SweepRequest& request) {
-  const std::vector<std::pair<const char*, const std::vector<double>*>> lists{
-      {"--sigma-n", &request.sigmas}, {"--iso", &request.isos}, {"--voxel-size", &request.voxelSizes}};
+  const std::vector<std::pair<const char*, const std::vector<double>*>> lists{{"--sigma-n", &request.sigmas},
+                                                                              {"--iso", &request.isos},
+                                                                              {"--voxel-size", &request.voxelSizes},
+                                                                              {"--adaptive", &request.adaptive}};
   const char* swept = nullptr;
   for (const auto& [name, values] : lists) {
     if (values->size() < 2) continue;

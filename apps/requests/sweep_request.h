@@ -14,7 +14,8 @@ namespace pdc {
 struct SweepRequest {
   MeshRequest mesh;  ///< Input, placement and so on; what is swept is set for each value.
   std::filesystem::path folder, reference;
-  std::vector<double> sigmas, isos, voxelSizes;  ///< At most one has several values.
+  std::vector<double> sigmas, isos, voxelSizes, adaptive;  ///< At most one has several values.
+  bool adaptiveInVoxels = false;                           ///< Else in world units.
   Vec3d towardsViewer{1, -1, 1};
   bool meshes = false;
 

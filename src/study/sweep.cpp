@@ -77,6 +77,8 @@ void measure(const Mesh& mesh, const std::vector<std::uint8_t>& flat, const Swee
              const Monitor& monitor) {
   step.vertices = mesh.positions.size();
   step.faces = mesh.quads.size() + mesh.triangles.size();
+  step.triangles = step.faces + mesh.quads.size();
+  if (step.contour.trianglesBefore > 0) step.adaptedMax = step.contour.adaptedDistance / step.voxelSize;
   if (mesh.empty()) return;
   if (truth.field != nullptr) {
     summarize(distancesToField(mesh, *truth.field, monitor), step.voxelSize, step.vertexRms, step.vertexMax);
@@ -95,32 +97,69 @@ void checkValues(const std::vector<double>& values) {
   if (values.empty()) throw std::invalid_argument("sweep: no values");
 }
 
-Sweep runSigma(const HermiteSource& source, const std::vector<double>& sigmas, const SweepOptions& options,
-               const Monitor& monitor) {
+/// The options for a lattice, but for what is swept.
+ContourOptions optionsFor(const SweepOptions& options, double voxelSize) {
+  ContourOptions result = options.contour;
+  if (options.adaptive) result.adaptive = *options.adaptive * voxelSize;
+  return result;
+}
+
+std::string noRecommendation(SweepParameter parameter) {
+  return fmt::format("Nothing is recommended: which {} is right depends on what the mesh is for.",
+                     namesOf(parameter).key);
+}
+
+void set(SweepParameter parameter, double value, double voxelSize, ContourOptions& options) {
+  if (parameter == SweepParameter::kSigmaNormal) {
+    options.sigmaNormal = value;
+  } else if (value > 0) {
+    options.adaptive = value * voxelSize;
+  } else {
+    options.adaptive.reset();
+  }
+}
+
+/// Over σn or the adaptive distance.
+Sweep runSampled(SweepParameter parameter, const HermiteSource& source, const std::vector<double>& values,
+                 const SweepOptions& options, const Monitor& monitor) {
+  const bool overSigma = parameter == SweepParameter::kSigmaNormal;
+  const double voxelSize = source.map().voxelSize();
+  const ContourOptions shared = optionsFor(options, voxelSize);
+  const bool sameVertices = overSigma && !shared.adaptive;
   // The parts are sampling, a contour and a measurement for each value, the flat vertices and the noise.
-  detail::WholeProgress progress(monitor, 2 * sigmas.size() + 3);
-  Sweep sweep{.parameter = SweepParameter::kSigmaNormal};
+  detail::WholeProgress progress(monitor, 2 * values.size() + 1 + (sameVertices ? 1 : 0) + (overSigma ? 1 : 0));
+  Sweep sweep{.parameter = parameter};
   detail::Stopwatch sampling;
   const SampledSource sampled(source, progress.beginPart());
   sweep.secondsSample = sampling.lap();
-  for (const double sigma : sigmas) {
-    SweepStep step{.value = sigma, .voxelSize = source.map().voxelSize()};
-    ContourOptions contourOptions = options.contour;
-    contourOptions.sigmaNormal = sigma;
+  for (const double value : values) {
+    SweepStep step{.value = value, .voxelSize = voxelSize};
+    ContourOptions contourOptions = shared;
+    set(parameter, value, voxelSize, contourOptions);
     detail::Stopwatch contouring;
     sweep.meshes.push_back(contour(sampled, contourOptions, &step.contour, progress.beginPart()));
     step.seconds = contouring.lap();
     sweep.steps.push_back(step);
   }
-  // Roughness is compared over the same vertices: those that are flat where no normal has a say.
-  const std::vector<std::uint8_t> flat = flatVertices(
-      contour(sampled, {.sigmaNormal = std::numeric_limits<double>::infinity(), .placement = Placement::kCell}, nullptr,
-              progress.beginPart()),
-      kFlatDegrees);
-  for (std::size_t i = 0; i < sigmas.size(); ++i)
-    measure(sweep.meshes[i], flat, options.truth, sweep.steps[i], progress.beginPart());
-  sweep.normalNoise = normalNoise(sampled, progress.beginPart());
-  detail::recommendSigma(sweep);
+  // Roughness is compared over the same vertices where all meshes have them: those that are flat where no normal has a
+  // say.
+  std::vector<std::uint8_t> flat;
+  if (sameVertices)
+    flat = flatVertices(
+        contour(sampled, {.sigmaNormal = std::numeric_limits<double>::infinity(), .placement = Placement::kCell},
+                nullptr, progress.beginPart()),
+        kFlatDegrees);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Mesh& mesh = sweep.meshes[i];
+    const Monitor part = progress.beginPart();
+    measure(mesh, sameVertices ? flat : flatVertices(mesh, kFlatDegrees), options.truth, sweep.steps[i], part);
+  }
+  if (overSigma) {
+    sweep.normalNoise = normalNoise(sampled, progress.beginPart());
+    detail::recommendSigma(sweep);
+  } else {
+    sweep.reason = noRecommendation(parameter);
+  }
   progress.finish();
   return sweep;
 }
@@ -135,14 +174,13 @@ Sweep runInputs(SweepParameter parameter, const std::vector<double>& values,
     const SweepInput input = open(value);
     SweepStep step{.value = value, .voxelSize = input.source->map().voxelSize()};
     detail::Stopwatch contouring;
-    Mesh mesh = contour(*input.source, options.contour, &step.contour, progress.beginPart());
+    Mesh mesh = contour(*input.source, optionsFor(options, step.voxelSize), &step.contour, progress.beginPart());
     step.seconds = contouring.lap();
     measure(mesh, flatVertices(mesh, kFlatDegrees), input.truth, step, progress.beginPart());
     sweep.steps.push_back(step);
     sweep.meshes.push_back(std::move(mesh));
   }
-  sweep.reason =
-      fmt::format("Nothing is recommended: which {} is right depends on what the mesh is for.", namesOf(parameter).key);
+  sweep.reason = noRecommendation(parameter);
   progress.finish();
   return sweep;
 }
@@ -157,6 +195,8 @@ SweepParameterNames namesOf(SweepParameter parameter) {
       return {"iso", "isovalue"};
     case SweepParameter::kVoxelSize:
       return {"voxel_size", "voxel size"};
+    case SweepParameter::kAdaptive:
+      return {"adaptive", "adaptive distance"};
   }
   throw std::invalid_argument("not a parameter of a sweep");
 }
@@ -166,14 +206,28 @@ Sweep sweepSigma(const HermiteSource& source, const std::vector<double>& sigmas,
   checkValues(sigmas);
   for (const double sigma : sigmas)
     if (!(sigma >= 0)) throw std::invalid_argument(fmt::format("sweepSigma: σn is {}, must be at least 0", sigma));
-  return detail::withThreads(options.contour.threads, [&] { return runSigma(source, sigmas, options, monitor); });
+  return detail::withThreads(options.contour.threads, [&] {
+    return runSampled(SweepParameter::kSigmaNormal, source, sigmas, options, monitor);
+  });
+}
+
+Sweep sweepAdaptive(const HermiteSource& source, const std::vector<double>& distances, const SweepOptions& options,
+                    const Monitor& monitor) {
+  checkValues(distances);
+  for (const double distance : distances)
+    if (!(distance >= 0 && std::isfinite(distance)))
+      throw std::invalid_argument(
+          fmt::format("sweepAdaptive: the distance is {}, must be at least 0 and finite", distance));
+  return detail::withThreads(options.contour.threads, [&] {
+    return runSampled(SweepParameter::kAdaptive, source, distances, options, monitor);
+  });
 }
 
 Sweep sweepInputs(SweepParameter parameter, const std::vector<double>& values,
                   const std::function<SweepInput(double)>& open, const SweepOptions& options, const Monitor& monitor) {
   checkValues(values);
-  if (parameter == SweepParameter::kSigmaNormal)
-    throw std::invalid_argument("sweepInputs: σn is swept by sweepSigma()");
+  if (parameter == SweepParameter::kSigmaNormal || parameter == SweepParameter::kAdaptive)
+    throw std::invalid_argument("sweepInputs: σn and adaptive distances are for sweepSigma() and sweepAdaptive()");
   return detail::withThreads(options.contour.threads,
                              [&] { return runInputs(parameter, values, open, options, monitor); });
 }

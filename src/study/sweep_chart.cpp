@@ -83,6 +83,9 @@ std::vector<SweepChart> sweepCharts(const Sweep& sweep) {
       {"Vertices", "count", {"out_of_cell", "moved"}},
       {"Self-intersections", "pairs", {"self_intersections"}},
       {"Time", "seconds", {"seconds"}}};
+  if (sweep.parameter == SweepParameter::kAdaptive)
+    charts.insert(charts.begin(),
+                  {{"Triangles", "count", {"triangles"}}, {"Distance to the full mesh", "voxels", {"adapted_max"}}});
   for (SweepChart& chart : charts) std::erase_if(chart.keys, [&](const auto& key) { return !known(sweep, key); });
   std::erase_if(charts, [](const SweepChart& chart) { return chart.keys.empty(); });
   return charts;

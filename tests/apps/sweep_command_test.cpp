@@ -101,6 +101,40 @@ TEST_F(SweepCommand, SweepsOverIsoAndVoxelSize) {
   EXPECT_TRUE(std::filesystem::exists(mOut + "/voxel_size_0.2.ply"));
 }
 
+TEST_F(SweepCommand, SweepsOverAdaptiveDistances) {
+  // A voxel is 0.1.
+  for (const char* list : {"0,0.05v,0.25v", "0,0.005,0.025"}) {
+    const Json report = sweep({"--adaptive", list, "--meshes"}, mScene);
+    EXPECT_EQ(report["parameter"], "adaptive");
+    EXPECT_TRUE(report["recommended"].is_null());
+    const Json& steps = report["steps"];
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_TRUE(steps[0]["adapted_max"].is_null());
+    EXPECT_EQ(steps[0]["triangles"].get<double>(), 2 * steps[0]["faces"].get<double>());
+    for (std::size_t i = 1; i < 3; ++i) {
+      EXPECT_NEAR(steps[i]["adaptive"].get<double>(), i == 1 ? 0.05 : 0.25, 1e-12);
+      EXPECT_LE(steps[i]["adapted_max"].get<double>(), steps[i]["adaptive"].get<double>() * (1 + 1e-5));
+      EXPECT_LT(steps[i]["triangles"], steps[0]["triangles"]);
+    }
+    EXPECT_NE(readFile(mOut + "/index.html").find("Distance to the full mesh"), std::string::npos);
+    EXPECT_NE(readFile(mOut + "/sweep.csv").find("adapted_max"), std::string::npos);
+  }
+  const std::string alone = mFolder / "alone.ply";
+  ASSERT_EQ(runPdc({"mesh", mScene, alone, "--sigma-n", "0.05", "--adaptive", "0.25v"}).exitCode, 0);
+  EXPECT_EQ(readFile(mOut + "/adaptive_0.25.ply"), readFile(alone));
+}
+
+TEST_F(SweepCommand, OtherSweepsMayBeAdaptive) {
+  for (const char* distance : {"0.1v", "0.01"}) {
+    const Json sizes = sweep({"--voxel-size", "0.2,0.1", "--adaptive", distance}, mScene);
+    for (const Json& step : sizes["steps"]) {
+      const double h = step["voxel_size"], most = distance[3] == 'v' ? 0.1 : 0.01 / h;
+      EXPECT_LE(step["adapted_max"].get<double>(), most * (1 + 1e-5)) << step;
+    }
+  }
+  EXPECT_TRUE(sweep({"--iso", "0,0.1", "--adaptive", "0"}, mScene)["steps"][0]["adapted_max"].is_null());
+}
+
 TEST_F(SweepCommand, StepsWithoutSurfaceAreBlankButNotAllMayBe) {
   EXPECT_EQ(sweep({"--iso=0,-5"}, mScene)["steps"][1]["faces"], 0);
   std::filesystem::remove_all(mOut);
@@ -114,6 +148,11 @@ TEST_F(SweepCommand, BadRequestsFailInOneLine) {
   expectRefusal({mScene, mOut, "--sigma-n", "0.1,0.2,0.1"}, 2, {"--sigma-n", "twice"});
   expectRefusal({mScene, mOut, "--iso=0,inf"}, 2, {"--iso", "finite"});
   expectRefusal({mScene, mOut, "--voxel-size=0,1"}, 2, {"--voxel-size", "> 0"});
+  for (const char* list : {",", "0,", "-1", "nan", "inf", "1,v", "1vv", "0,inf"})
+    expectRefusal({mScene, mOut, std::string("--adaptive=") + list}, 2, {"--adaptive", list, ">= 0"});
+  expectRefusal({mScene, mOut, "--adaptive=0.1v,0.1v"}, 2, {"--adaptive", "twice"});
+  expectRefusal({mScene, mOut, "--adaptive=0v,0.1,0.2v"}, 2, {"--adaptive", "mixes"});
+  expectRefusal({mScene, mOut, "--adaptive=0,1", "--sigma-n=0,1"}, 2, {"--adaptive", "--sigma-n", "several values"});
   expectRefusal({mScene, mOut, "--iso=0,1", "--sigma-n=0,1"}, 2, {"--iso", "--sigma-n", "several values"});
   expectRefusal({mScene, mOut, "--view", "sideways"}, 2, {"--view", "sideways"});
   expectRefusal({bulletGrid(), mOut, "--voxel-size=1,2"}, 2, {"--voxel-size", "scenes only"});

@@ -137,11 +137,49 @@ TEST(SweepInputs, ErrorsOfASphereFallWithTheVoxelSize) {
   EXPECT_FALSE(sweep.recommended);
 }
 
+TEST(SweepAdaptive, MeshesAreThoseOfContour) {
+  const FieldSource source = exactPart(0.1);
+  const SweepOptions options{.contour = {.sigmaNormal = 0.05}, .truth = truthOf(source)};
+  const Sweep sweep = sweepAdaptive(source, {0, 0.05, 0.25}, options);
+  ASSERT_EQ(sweep.steps.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SweepStep& step = sweep.steps[i];
+    const Mesh& mesh = sweep.meshes[i];
+    ContourOptions alone{.sigmaNormal = 0.05};
+    if (step.value > 0) alone.adaptive = step.value * step.voxelSize;
+    EXPECT_EQ(mesh.positions, contour(source, alone).positions);
+    EXPECT_EQ(step.triangles, mesh.triangles.size() + 2 * mesh.quads.size());
+    EXPECT_EQ(step.adaptedMax.has_value(), i > 0);
+    EXPECT_EQ(step.eulerNumber, 0);
+    if (i == 0) continue;
+    EXPECT_LT(step.triangles, sweep.steps[i - 1].triangles);
+    EXPECT_GT(*step.adaptedMax, 0);
+    EXPECT_LE(*step.adaptedMax, step.value * (1 + 1e-5));
+  }
+  EXPECT_LT(*sweep.steps[1].vertexRms, 0.1);
+  EXPECT_FALSE(sweep.recommended);
+  EXPECT_NE(sweep.reason.find("Nothing is recommended"), std::string::npos) << sweep.reason;
+}
+
+TEST(SweepSigma, MeshesMayBeAdaptiveInVoxels) {
+  const FieldSource source = exactPart(0.1);
+  const Sweep sweep = sweepSigma(source, {0, 0.25}, {.contour = {}, .truth = {}, .adaptive = 0.1});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Mesh alone =
+        contour(source, {.sigmaNormal = sweep.steps[i].value, .adaptive = 0.1 * sweep.steps[i].voxelSize});
+    EXPECT_EQ(sweep.meshes[i].positions, alone.positions);
+    EXPECT_LE(sweep.steps[i].adaptedMax.value(), 0.1 * (1 + 1e-5));
+  }
+}
+
 TEST(Sweep, Refusals) {
   const FieldSource source = exactPart(0.2);
   EXPECT_THROW(static_cast<void>(sweepSigma(source, {}, {})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(sweepSigma(source, {0.1, -1}, {})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(sweepSigma(source, {std::nan("")}, {})), std::invalid_argument);
+  for (const double distance : {-0.1, std::nan(""), kInfinity})
+    EXPECT_THROW(static_cast<void>(sweepAdaptive(source, {0, distance}, {})), std::invalid_argument) << distance;
+  EXPECT_THROW(static_cast<void>(sweepInputs(SweepParameter::kAdaptive, {0.1}, {}, {})), std::invalid_argument);
   const std::atomic<bool> stop = true;
   EXPECT_THROW(static_cast<void>(sweepSigma(source, {0.1}, {}, {.stop = &stop})), Cancelled);
 }

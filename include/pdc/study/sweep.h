@@ -18,12 +18,13 @@ enum class SweepParameter {
   kSigmaNormal,  ///< σn; no unit.
   kIso,          ///< The isovalue, in the units of the grid or the function.
   kVoxelSize,    ///< The edge of a cell, in world units.
+  kAdaptive,     ///< ContourOptions::adaptive, in voxels; 0 for none.
 };
 
 /// How files and people call a parameter.
 struct SweepParameterNames {
-  const char* key;    ///< "sigma_n", "iso" or "voxel_size", as in files.
-  const char* label;  ///< "σn", "isovalue" or "voxel size", in UTF-8.
+  const char* key;    ///< "sigma_n", "iso", "voxel_size" or "adaptive", as in files.
+  const char* label;  ///< "σn", "isovalue", "voxel size" or "adaptive distance", in UTF-8.
 };
 
 [[nodiscard]] SweepParameterNames namesOf(SweepParameter parameter);
@@ -42,10 +43,14 @@ struct SweepStep {
   double voxelSize = 0;  ///< World units; see LatticeMap::voxelSize().
   double seconds = 0;    ///< Wall-clock time of contour(); sampling is in Sweep::secondsSample where it is shared.
   std::size_t vertices = 0, faces = 0;
+  std::size_t triangles = 0;  ///< Faces, each quad counted twice.
   ContourReport contour{};
   /// Distance of the vertices to the true surface, >= 0. To a field it is |f| / |grad f|, so exact to first order.
   /// Empty without a truth, and if no distance is finite.
   std::optional<double> vertexRms{}, vertexMax{};
+  /// The largest distance of a vertex of either mesh to the other, this one and the one without adaptivity. Empty if
+  /// there is none.
+  std::optional<double> adaptedMax{};
   /// Distance of the true creases' points to the mesh, >= 0. Empty without creases.
   std::optional<double> creaseRms{}, creaseMax{};
   double roughness = 0;                  ///< How rough flat parts are, >= 0; see roughness().
@@ -65,8 +70,9 @@ struct Sweep {
 };
 
 struct SweepOptions {
-  ContourOptions contour{};  ///< sigmaNormal is ignored where it is swept. `threads` holds for measuring too.
-  SweepTruth truth{};        ///< Used by sweepSigma() only.
+  ContourOptions contour{};          ///< What is swept of it is ignored. `threads` holds for measuring too.
+  SweepTruth truth{};                ///< Not used by sweepInputs().
+  std::optional<double> adaptive{};  ///< ContourOptions::adaptive in voxels of each lattice; then `contour` has none.
 };
 
 /// Contours a source for several σn (no unit, >= 0 or infinite), and measures the meshes. The source is sampled once;
@@ -83,6 +89,12 @@ struct SweepOptions {
 [[nodiscard]] Sweep sweepSigma(const HermiteSource& source, const std::vector<double>& sigmas,
                                const SweepOptions& options, const Monitor& monitor = {});
 
+/// Contours a source adaptively within several distances (voxels, >= 0 and finite; 0 is without adaptivity), and
+/// measures the meshes; recommends nothing. The source is sampled once. Roughness is that of each mesh's own flat
+/// parts. Otherwise as sweepSigma().
+[[nodiscard]] Sweep sweepAdaptive(const HermiteSource& source, const std::vector<double>& distances,
+                                  const SweepOptions& options, const Monitor& monitor = {});
+
 /// One source and what is true of it.
 struct SweepInput {
   std::unique_ptr<const HermiteSource> source;  ///< Not null.
@@ -91,8 +103,8 @@ struct SweepInput {
 
 /// Contours one source per value with the same options, and measures the meshes; recommends nothing. `open` makes the
 /// sources, one at a time, on the calling thread or on one that works for it. The monitor is used as by sweepSigma(),
-/// and looked at before and after each call of `open`. \throws std::invalid_argument for no values, or for σn, which is
-/// for sweepSigma(); whatever `open`, contour() and distances() throw.
+/// and looked at before and after each call of `open`. \throws std::invalid_argument for no values, or for what
+/// sweepSigma() and sweepAdaptive() sweep; whatever `open`, contour() and distances() throw.
 [[nodiscard]] Sweep sweepInputs(SweepParameter parameter, const std::vector<double>& values,
                                 const std::function<SweepInput(double)>& open, const SweepOptions& options,
                                 const Monitor& monitor = {});
