@@ -1,5 +1,6 @@
 // Writes the mesh that pdc makes by default and that of OpenVDB's mesher, side by side, to compare or draw.
-// usage: peer_meshes FILE.vdb|KIND OUR.ply THEIR.ply (KIND as kinds_eval has it: its level set without noise)
+// usage: peer_meshes FILE.vdb|KIND OUR.ply THEIR.ply [E] (KIND as kinds_eval has it: its level set without noise; E in
+// voxels: ours adaptive within it, theirs at the adaptivity that gives about as many triangles, or its least)
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
@@ -39,11 +40,31 @@ openvdb::FloatGrid::Ptr fromKind(const std::string& name) {
   throw pdc::Error(fmt::format("{}: no such kind", name));
 }
 
+std::size_t trianglesOf(const pdc::Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); }
+
+/// The mesh of OpenVDB's with the least adaptivity of those that have no more triangles; that with the fewest if none.
+pdc::Mesh coarsened(const openvdb::FloatGrid& grid, double iso, std::size_t triangles) {
+  constexpr int kSteps = 20;
+  double few = 1, many = 0;
+  pdc::Mesh mesh = pdc::eval::volumeToMesh(grid, iso, few);
+  for (int i = 0; i < kSteps && trianglesOf(mesh) < triangles; ++i) {
+    const double middle = 0.5 * (few + many);
+    pdc::Mesh finer = pdc::eval::volumeToMesh(grid, iso, middle);
+    if (trianglesOf(finer) > triangles) {
+      many = middle;
+      continue;
+    }
+    few = middle;
+    mesh = std::move(finer);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: peer_meshes FILE.vdb|KIND OUR.ply THEIR.ply\n");
+  if (argc != 4 && argc != 5) {
+    fmt::print(stderr, "usage: peer_meshes FILE.vdb|KIND OUR.ply THEIR.ply [E]\n");
     return 2;
   }
   openvdb::initialize();
@@ -51,8 +72,14 @@ int main(int argc, char** argv) {
     const std::string input = argv[1];
     const auto grid = input.ends_with(".vdb") ? fromFile(input) : fromKind(input);
     const pdc::GridSource source(grid);
-    pdc::writeMesh(pdc::contour(source), argv[2]);
-    pdc::writeMesh(pdc::eval::volumeToMesh(*grid, source.iso()), argv[3]);
+    pdc::ContourOptions options;
+    if (argc == 5) options.adaptive = std::stod(argv[4]) * source.map().voxelSize();
+    const pdc::Mesh ours = pdc::contour(source, options);
+    const pdc::Mesh theirs =
+        argc == 5 ? coarsened(*grid, source.iso(), trianglesOf(ours)) : pdc::eval::volumeToMesh(*grid, source.iso());
+    pdc::writeMesh(ours, argv[2]);
+    pdc::writeMesh(theirs, argv[3]);
+    fmt::print("{}: {} triangles, OpenVDB {}\n", input, trianglesOf(ours), trianglesOf(theirs));
   } catch (const std::exception& e) {
     fmt::print(stderr, "peer_meshes: {}\n", e.what());
     return 1;

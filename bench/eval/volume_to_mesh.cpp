@@ -4,8 +4,8 @@
 
 namespace pdc::eval {
 
-Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso) {
-  openvdb::tools::VolumeToMesh mesher(iso, 0);
+Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso, double adaptivity) {
+  openvdb::tools::VolumeToMesh mesher(iso, adaptivity);
   mesher(grid);
   Mesh mesh;
   for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
@@ -18,6 +18,10 @@ Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso) {
     for (openvdb::Index k = 0; k < pool.numQuads(); ++k) {
       const openvdb::Vec4I& q = pool.quad(k);
       mesh.quads.push_back({q[3], q[2], q[1], q[0]});
+    }
+    for (openvdb::Index k = 0; k < pool.numTriangles(); ++k) {
+      const openvdb::Vec3I& t = pool.triangle(k);
+      mesh.triangles.push_back({t[2], t[1], t[0]});
     }
   }
   return mesh;

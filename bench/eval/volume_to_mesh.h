@@ -6,7 +6,8 @@
 
 namespace pdc::eval {
 
-/// The quads of OpenVDB's own mesher, with adaptivity 0, counter-clockwise seen from outside.
-[[nodiscard]] Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso);
+/// The faces of OpenVDB's own mesher, counter-clockwise seen from outside: quads and, where it merges cells, triangles.
+/// \param adaptivity from 0 to 1: cells merge where one minus the cosine between their normals stays below.
+[[nodiscard]] Mesh volumeToMesh(const openvdb::FloatGrid& grid, double iso, double adaptivity = 0);
 
 }  // namespace pdc::eval
