@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "best_rates.h"
-#include "eval/decimation_peers.h"
+#include "decimation/decimation_peers.h"
 #include "eval/inputs.h"
 #include "eval/kinds.h"
 #include "eval/shapes.h"
