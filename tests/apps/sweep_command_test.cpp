@@ -16,6 +16,8 @@ namespace {
 using Json = nlohmann::json;
 
 const std::string kScene = "voxel_size: 0.1\nbox: [[-1, -1, -1], [1, 1, 1]]\nshape: {box: {size: [1.1, 1.1, 1.1]}}\n";
+/// A voxel is 0.1, as in the cube's scene.
+const std::string kBall = "voxel_size: 0.1\nbox: [[-1, -1, -1], [1, 1, 1]]\nshape: {sphere: {radius: 0.7}}\n";
 
 class SweepCommand : public ::testing::Test {
  protected:
@@ -102,9 +104,9 @@ TEST_F(SweepCommand, SweepsOverIsoAndVoxelSize) {
 }
 
 TEST_F(SweepCommand, SweepsOverAdaptiveDistances) {
-  // A voxel is 0.1.
+  const std::string ball = mFolder.write("ball.yaml", kBall);
   for (const char* list : {"0,0.05v,0.25v", "0,0.005,0.025"}) {
-    const Json report = sweep({"--adaptive", list, "--meshes"}, mScene);
+    const Json report = sweep({"--adaptive", list, "--meshes"}, ball);
     EXPECT_EQ(report["parameter"], "adaptive");
     EXPECT_TRUE(report["recommended"].is_null());
     const Json& steps = report["steps"];
@@ -120,19 +122,20 @@ TEST_F(SweepCommand, SweepsOverAdaptiveDistances) {
     EXPECT_NE(readFile(mOut + "/sweep.csv").find("adapted_max"), std::string::npos);
   }
   const std::string alone = mFolder / "alone.ply";
-  ASSERT_EQ(runPdc({"mesh", mScene, alone, "--sigma-n", "0.05", "--adaptive", "0.25v"}).exitCode, 0);
+  ASSERT_EQ(runPdc({"mesh", ball, alone, "--sigma-n", "0.05", "--adaptive", "0.25v"}).exitCode, 0);
   EXPECT_EQ(readFile(mOut + "/adaptive_0.25.ply"), readFile(alone));
 }
 
 TEST_F(SweepCommand, OtherSweepsMayBeAdaptive) {
+  const std::string ball = mFolder.write("ball.yaml", kBall);
   for (const char* distance : {"0.1v", "0.01"}) {
-    const Json sizes = sweep({"--voxel-size", "0.2,0.1", "--adaptive", distance}, mScene);
+    const Json sizes = sweep({"--voxel-size", "0.2,0.1", "--adaptive", distance}, ball);
     for (const Json& step : sizes["steps"]) {
       const double h = step["voxel_size"], most = distance[3] == 'v' ? 0.1 : 0.01 / h;
       EXPECT_LE(step["adapted_max"].get<double>(), most * (1 + 1e-5)) << step;
     }
   }
-  EXPECT_TRUE(sweep({"--iso", "0,0.1", "--adaptive", "0"}, mScene)["steps"][0]["adapted_max"].is_null());
+  EXPECT_TRUE(sweep({"--iso", "0,0.1", "--adaptive", "0"}, ball)["steps"][0]["adapted_max"].is_null());
 }
 
 TEST_F(SweepCommand, StepsWithoutSurfaceAreBlankButNotAllMayBe) {
