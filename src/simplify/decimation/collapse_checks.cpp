@@ -11,25 +11,29 @@ bool isNeighbour(std::span<const StarCorner> star, std::uint32_t vertex) {
   return false;
 }
 
-/// Calls visit(neighbour) once for each vertex that shares an edge with a manifold star's.
-template <typename Visit>
-void forEachNeighbour(std::span<const StarCorner> star, const Visit& visit) {
-  for (const StarCorner& c : star) {
-    visit(c.next);
+/// How many vertices that share an edge with a manifold star's share one with another's, too.
+/// \param b that other, which is not counted itself.
+std::size_t commonNeighbours(std::span<const StarCorner> starA, std::span<const StarCorner> starB, std::uint32_t b) {
+  const auto counts = [&](std::uint32_t v) { return v != b && isNeighbour(starB, v); };
+  std::size_t common = 0;
+  for (const StarCorner& c : starA) {
+    common += counts(c.next);
+    // Few are counted, so that hubs need not look for the rest among their own.
+    if (!counts(c.previous)) continue;
     bool isNext = false;
-    for (const StarCorner& other : star) isNext = isNext || other.next == c.previous;
-    if (!isNext) visit(c.previous);
+    for (const StarCorner& other : starA) isNext = isNext || other.next == c.previous;
+    common += !isNext;
   }
+  return common;
 }
 
 }  // namespace
 
 bool CollapseChecks::keepsTopology(std::uint32_t a, std::uint32_t b) const {
   const std::span<const StarCorner> starA = mStars[a], starB = mStars[b];
-  std::size_t faces = 0, common = 0;
+  std::size_t faces = 0;
   for (const StarCorner& c : starA) faces += c.next == b || c.previous == b;
-  forEachNeighbour(starA, [&](std::uint32_t v) { common += v != b && isNeighbour(starB, v); });
-  if (common != faces) return false;
+  if (commonNeighbours(starA, starB, b) != faces) return false;
   const bool ends = atBoundary(starA) && atBoundary(starB);
   // An edge across the surface from boundary to boundary would pinch it.
   if (ends && faces != 1) return false;

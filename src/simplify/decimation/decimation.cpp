@@ -14,6 +14,7 @@
 #include "simplify/decimation/collapse_checks.h"
 #include "simplify/decimation/edge_lanes.h"
 #include "simplify/decimation/new_intersections.h"
+#include "simplify/error_bound/hub.h"
 #include "simplify/vertex_pair_hash.h"
 
 namespace pdc::detail {
@@ -178,6 +179,7 @@ inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end) {
       if (b < a && twin != nullptr) continue;
       if (mSurface.locked[a] != 0 && mSurface.locked[b] != 0) continue;
       if (isRefused(std::min(a, b), std::max(a, b))) continue;
+      if (mRule.error && isHub(mStars, a, b)) continue;
       if (!mCollapse.inLanes(a, b)) {
         mCosts[corner] = costAlone(corner);
         continue;

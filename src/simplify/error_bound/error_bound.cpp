@@ -122,7 +122,7 @@ std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std
   std::vector<std::optional<Change>> found(collapses.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, collapses.size(), 4), [&](const auto& r) {
     if (monitor.stopped()) return;
-    for (std::size_t i = r.begin(); i < r.end(); ++i) found[i] = changeOf(stars, collapses[i]);
+    for (std::size_t i = r.begin(); i < r.end(); ++i) found[i] = changeOf(stars, collapses[i], monitor);
   });
   monitor.throwIfStopped();
   std::vector<ChosenCollapse> out, near;
@@ -245,7 +245,8 @@ bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& chang
   return covers;
 }
 
-std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars, const ChosenCollapse& collapse) const {
+std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars, const ChosenCollapse& collapse,
+                                                       const Monitor& monitor) const {
   const Vec3d place = vecCast<double>(placeOf(collapse));
   Change change{collapse, mEnvelope.nearest(place, mBelow[collapse.a]), {}};
   if (change.below == kNone) return std::nullopt;
@@ -254,6 +255,8 @@ std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars,
     if (!mEnvelope.contains(faces.corners(i), change.below)) return std::nullopt;
   const Faces changed = changedFaces(stars, collapse);
   for (const std::uint32_t t : trianglesAt(changed)) {
+    // One face may stand for all triangles given.
+    if (monitor.stopped()) return std::nullopt;
     change.covered.push_back({t, {}});
     if (!cover(change.covered.back(), facesOf(t), changed, faces)) return std::nullopt;
   }

@@ -61,7 +61,8 @@ class ErrorBound {
   class NearFaces;
 
   void findLinks(const Monitor& monitor);
-  [[nodiscard]] std::optional<Change> changeOf(const VertexStars& stars, const ChosenCollapse& collapse) const;
+  [[nodiscard]] std::optional<Change> changeOf(const VertexStars& stars, const ChosenCollapse& collapse,
+                                               const Monitor& monitor) const;
   [[nodiscard]] bool join(const VertexStars& stars, Change& change);
   [[nodiscard]] std::vector<ChosenCollapse> joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses);
   [[nodiscard]] Faces changedFaces(const VertexStars& stars, const ChosenCollapse& collapse) const;
