@@ -35,8 +35,8 @@ struct ContourOptions {
   /// made without it, nor a point of that from the result, in world units, above 0 and finite. Edges are collapsed as
   /// by decimate() with that error and `sound`; what is promised of the mesh's topology, closedness and intersections
   /// holds, cells and placements are left. Quads stay where nothing was collapsed. Properties are interpolated, normals
-  /// those of the faces. Takes ten times as long as contouring and more, and some 600 bytes per vertex of the full
-  /// mesh. Excludes `quadrics`.
+  /// those of the faces. Takes a hundred times as long as contouring and more, and some 600 bytes per vertex of the
+  /// full mesh. Excludes `quadrics`.
   std::optional<double> adaptive{};
   bool normals = false;  ///< Also a normal per vertex: the mean of its crossings' normals.
   /// Also the confidence of each vertex as the mesh's property "confidence", floats from 0 to 1: 1 / (1 + s /

@@ -30,8 +30,9 @@ struct DecimateOptions {
   std::optional<std::size_t> faces{};
   std::optional<double> ratio{};
   /// No point of the result is farther than this from the surface given, nor a point of that from the result: collapses
-  /// that would break it are refused. Without a number of faces or a ratio there are as few triangles as come out then.
-  /// One of the three must be set. Takes ten times as long and more.
+  /// that would break it are refused. That surface is the welded one, of faces that count. Without a number of faces or
+  /// a ratio there are as few triangles as come out then. One of the three must be set. Takes ten times as long and
+  /// more.
   std::optional<MeshLength> error{};
   /// Vertices within this distance of each other, in world units, 0 or more, become one before anything else: see
   /// weldVertices(). Else faces are neighbours only where they name the same vertices.

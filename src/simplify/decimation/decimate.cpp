@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -22,7 +23,10 @@ namespace {
 
 bool isLength(const std::optional<MeshLength>& l) { return !l || (l->value > 0 && std::isfinite(l->value)); }
 
-double inWorld(const MeshLength& length, double meanEdge) { return length.value * (length.inMeanEdges ? meanEdge : 1); }
+double inWorld(const MeshLength& length, double meanEdge) {
+  // Longer ones than double precision holds come to the same.
+  return std::min(length.value * (length.inMeanEdges ? meanEdge : 1), std::numeric_limits<double>::max());
+}
 
 void check(const DecimateOptions& o) {
   const auto require = [](bool holds, const char* what) {

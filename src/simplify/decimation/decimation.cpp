@@ -29,7 +29,7 @@ constexpr std::size_t kLeastOfRound = 2;
 
 /// An edge that costs so many times more than one that has to wait for its neighbour waits, too. Flat parts cost next
 /// to nothing: without this the last rounds took corners of one in seventeen plates of 200 to 26,000 faces with
-/// classical quadrics, while edges beside their collapses waited. Scans and CAD parts come out the same, byte for byte.
+/// classical quadrics, while edges beside their collapses waited. Scans and CAD parts come out as before.
 constexpr float kMostAhead = 1e8F;
 
 /// Costs at or below this, in mean edge lengths to the fourth power, are rounding.
