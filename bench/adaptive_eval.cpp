@@ -47,7 +47,7 @@ struct Request {
 
 std::size_t trianglesOf(const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); }
 
-/// The same surface, with the triangles that its quads stand for.
+/// Splits the quads of a mesh into the triangles that they stand for.
 Mesh split(const Mesh& mesh) {
   Mesh all;
   all.positions = mesh.positions;

@@ -22,7 +22,7 @@ struct PlaceHash {
   }
 };
 
-/// The same triangle whichever corner comes first.
+/// Names a triangle by its lowest corner first, so that it is found whichever corner a face begins with.
 Triangle rotated(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;

@@ -26,7 +26,7 @@ Mesh withSigma(Mesh mesh, float sigma) {
   return mesh;
 }
 
-/// The same covariance at each vertex.
+/// Gives every vertex of a mesh one covariance.
 Mesh withCovariance(Mesh mesh, const SymMat3<float>& c) {
   const std::array<float, 6> entries{c.xx, c.xy, c.xz, c.yy, c.yz, c.zz};
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -107,7 +107,7 @@ TEST(VertexNoise, RefusesWhatIsNoNoise) {
 TEST(VertexNoise, RefusesWhatIsNoCovariance) {
   const Mesh good = withCovariance(plate(1), {1, 0.5F, 0, 1, 0, 1});
   EXPECT_EQ(complaint(good, "cov"), "");
-  // Of rank one in single precision: an eigenvalue is a little below 0.
+  // Rounding to single precision takes an eigenvalue of this matrix of rank one a little below 0.
   EXPECT_EQ(complaint(withCovariance(plate(1), {0.01F, 0.03F, 0.07F, 0.09F, 0.21F, 0.49F}), "cov"), "");
   Mesh bad = good;
   std::get<Buffer<float>>(bad.properties[1].values)[2] = 2;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "math/lane_loops.h"
+#include "parallel/for_each_in_parallel.h"
 #include "parallel/gather.h"
 #include "simplify/decimation/collapse_checks.h"
 #include "simplify/decimation/edge_lanes.h"
@@ -41,13 +42,6 @@ constexpr std::size_t kBlock = 2048;
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 template <typename Visit>
-void forEachInParallel(std::size_t n, std::size_t grain, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& r) {
-    for (std::size_t i = r.begin(); i < r.end(); ++i) visit(i);
-  });
-}
-
-template <typename Visit>
 void forEachWithSimd(std::size_t n, std::size_t grain, const Visit& visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& r) {
     withSimd(bestSimdLevel(), [&] {
@@ -55,8 +49,6 @@ void forEachWithSimd(std::size_t n, std::size_t grain, const Visit& visit) {
     });
   });
 }
-
-std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
 
 }  // namespace
 
@@ -291,13 +283,13 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
 /// \returns how many there are.
 std::size_t Decimation::refuse(const std::vector<ChosenCollapse>& collapses) {
   for (const ChosenCollapse& c : collapses)
-    mRefused[edgeKey(std::min(c.a, c.b), std::max(c.a, c.b))] = static_cast<std::uint32_t>(mRounds);
+    mRefused[vertexPairKey(std::min(c.a, c.b), std::max(c.a, c.b))] = static_cast<std::uint32_t>(mRounds);
   return collapses.size();
 }
 
 bool Decimation::isRefused(std::uint32_t a, std::uint32_t b) const {
   if (mRefused.empty()) return false;
-  const auto found = mRefused.find(edgeKey(a, b));
+  const auto found = mRefused.find(vertexPairKey(a, b));
   return found != mRefused.end() && mChanged[a] <= found->second && mChanged[b] <= found->second;
 }
 

@@ -1,12 +1,10 @@
 #include "simplify/decimation/surface_fit.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "mesh/point_triangle.h"
+#include "parallel/for_each_in_parallel.h"
 #include "pdc/math/solvers.h"
 #include "simplify/decimation/new_intersections.h"
 #include "simplify/vertex_stars.h"
@@ -32,13 +30,6 @@ constexpr std::size_t kMostPerVertex = 32;
 /// nearest face may be that of the other side.
 constexpr double kAlike = 0.5;
 
-template <typename Visit>
-void forEachInParallel(std::size_t n, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 256), [&](const auto& r) {
-    for (std::size_t i = r.begin(); i < r.end(); ++i) visit(static_cast<std::uint32_t>(i));
-  });
-}
-
 constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
 /// A point of the surface given, at a face near to it.
@@ -56,7 +47,7 @@ class SurfaceFit {
       : mSurface(surface), mGiven(given), mRule(rule) {
     mStars.build(surface.faces, surface.positions.size());
     mNormals.resize(surface.faces.size());
-    forEachInParallel(surface.faces.size(), [&](std::uint32_t f) {
+    forEachInParallel(surface.faces.size(), 256, [&](std::uint32_t f) {
       mNormals[f] = cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0));
     });
     findSamples();
@@ -68,7 +59,7 @@ class SurfaceFit {
     monitor.throwIfStopped();
     if (mRule.sound) mPairs = intersectingFaces(mSurface, mSurface.positions, mSurface.faces, monitor);
     mMoved.assign(mSurface.positions.begin(), mSurface.positions.end());
-    forEachInParallel(mMoved.size(), [&](std::uint32_t v) {
+    forEachInParallel(mMoved.size(), 256, [&](std::uint32_t v) {
       const std::span<const StarCorner> star = mStars[v];
       if (!star.empty() && mSurface.locked[v] == 0 && !atBoundary(star)) mMoved[v] += moveOf(v) * kStep;
     });
@@ -93,7 +84,7 @@ class SurfaceFit {
     if (!mGiven.faces.empty()) mMeanArea = area / static_cast<double>(mGiven.faces.size());
     const std::size_t step = 1 + all / (kMostPerVertex * (mSurface.faces.size() / 2 + 1));
     mSamples.resize((all + step - 1) / step);
-    forEachInParallel(mSamples.size(), [&](std::uint32_t i) {
+    forEachInParallel(mSamples.size(), 256, [&](std::uint32_t i) {
       const std::size_t k = i * step;
       mSamples[i] = k < vertices ? vertexSample(k, vectorAreas[k]) : centroidSample(k - vertices);
       if (!findFaceBySector(mSamples[i])) findFace(mSamples[i]);

@@ -43,7 +43,7 @@ class LinkedFaces {
   [[nodiscard]] bool isRemoved(std::uint32_t face) const { return mFaces[face][0] == mFaces[face][1]; }
   /// Gives a the faces of b. \pre they have none in common.
   void merge(std::uint32_t a, std::uint32_t b);
-  /// Those that are left, in the order given.
+  /// The faces that are left, in the order in which they were given.
   [[nodiscard]] Buffer<Triangle> left() const;
 
  private:

@@ -1,8 +1,6 @@
 #include "simplify/pair_contraction/pair_contraction.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <functional>
@@ -10,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "parallel/for_each_in_parallel.h"
 #include "pdc/error.h"
 #include "simplify/pair_contraction/close_vertices.h"
 #include "simplify/pair_contraction/pockets.h"
@@ -23,13 +22,6 @@ constexpr float kNoCost = 1e-14F;
 
 /// So many pairs are tried between two looks at whether to stop.
 constexpr std::size_t kTrialsBetweenLooks = 4096;
-
-template <typename Visit>
-void forEachInParallel(std::size_t n, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& r) {
-    for (std::size_t i = r.begin(); i < r.end(); ++i) visit(static_cast<std::uint32_t>(i));
-  });
-}
 
 /// The vertices to which a star has one face only, in order.
 std::vector<std::uint32_t> boundaryNeighbours(std::span<const StarCorner> star) {
@@ -106,12 +98,12 @@ void PairContraction::findQuadrics() {
   VertexStars stars;
   stars.build(mGiven, mPositions.size());
   Buffer<FaceArea> areas(mGiven.size());
-  forEachInParallel(mGiven.size(), [&](std::uint32_t f) {
+  forEachInParallel(mGiven.size(), 1024, [&](std::uint32_t f) {
     const Triangle& t = mGiven[f];
     areas[f] = FaceArea(mPositions[t[0]], mPositions[t[1]], mPositions[t[2]]);
   });
   mQuadrics.resize(mPositions.size());
-  forEachInParallel(mPositions.size(), [&](std::uint32_t v) {
+  forEachInParallel(mPositions.size(), 1024, [&](std::uint32_t v) {
     const std::span<const StarCorner> star = stars[v];
     mQuadrics[v] = quadricOf(v, star, areas);
     if (mRule.lockBoundary) lockBoundary(v, star);
@@ -171,7 +163,7 @@ void PairContraction::findPairs(const Monitor& monitor) {
 void PairContraction::fillQueue() {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   mQueue.resize(mPairs.size());
-  forEachInParallel(mPairs.size(), [&](std::uint32_t p) {
+  forEachInParallel(mPairs.size(), 1024, [&](std::uint32_t p) {
     const std::optional<Trial> trial = tryPair(p);
     mQueue[p] = trial ? candidateOf(p, *trial) : Candidate{kNever, 0, p};
   });

@@ -18,7 +18,7 @@ class EndFaces {
     });
   }
 
-  /// Those that leave towards a vertex.
+  /// The faces at the star's vertex whose edge from it runs to `next`.
   [[nodiscard]] std::span<const StarCorner> towards(std::uint32_t next) const {
     const auto [begin, end] = std::equal_range(mByNext.begin(), mByNext.end(), StarCorner{0, next, 0},
                                                [](const auto& x, const auto& y) { return x.next < y.next; });
@@ -58,7 +58,8 @@ struct Pocket {
   std::uint32_t first, second, base;  ///< Two of the other end, and one of neither.
 };
 
-/// Those beside a face of one end in a tetrahedron whose faces look inwards, if it has one.
+/// Finds the other three faces of the tetrahedron that a face at one end belongs to, if there is one whose faces look
+/// inwards.
 std::optional<Pocket> findPocket(const LinkedFaces& faces, const EndFaces& own, const StarCorner& c,
                                  const EndFaces& others) {
   if (!own.facesOther(c)) return std::nullopt;

@@ -4,22 +4,20 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
 #include "mesh/faces.h"
 #include "parallel/with_threads.h"
+#include "simplify/quadric_kinds.h"
+#include "simplify/same_bytes.h"
 #include "simplify/shapes.h"
 
 namespace pdc {
 namespace {
 
-using test::cube, test::plate, test::sphere;
-
-constexpr QuadricKind kKinds[] = {QuadricKind::kPlane, QuadricKind::kTriangle, QuadricKind::kProbabilisticPlane,
-                                  QuadricKind::kProbabilisticTriangle, QuadricKind::kPoint};
+using test::cube, test::plate, test::sphere, test::sameBytes;
 
 using Cell = std::array<int, 3>;
 
@@ -33,11 +31,6 @@ Cell cellOf(const Vec3f& p, double cell) {
 /// How far a point is from the centre of a cell, along the axis where that is most, in cells.
 double fromCenter(const Vec3f& p, const Cell& c, double cell) {
   return largestEntry(vecCast<double>(p) * (1 / cell) - Vec3d{c[0] + 0.5, c[1] + 0.5, c[2] + 0.5});
-}
-
-bool sameBytes(const Mesh& a, const Mesh& b) {
-  return a.triangles == b.triangles && a.positions.size() == b.positions.size() &&
-         std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3f)) == 0;
 }
 
 std::vector<std::array<Vec3f, 3>> cornersOf(const Mesh& mesh) {
@@ -79,7 +72,7 @@ TEST(Cluster, FacesAreThoseOfCornersInThreeCellsWithEveryQuadric) {
   Mesh ball = sphere(30);
   test::addNoise(ball, 0.01);
   const Expected expected(ball, 0.17);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     ClusterReport report;
     const Mesh fewer = cluster(ball, {.cell = 0.17, .quadric = kind}, &report);
     EXPECT_EQ(fewer.triangles, expected.triangles);
@@ -96,7 +89,7 @@ TEST(Cluster, VerticesStayInTheirCellsUnlessFree) {
   Mesh ball = sphere(30);
   test::addNoise(ball, 0.02);
   const Expected expected(ball, 0.17);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     ClusterOptions options{.cell = 0.17, .quadric = kind, .sigmaNormal = 0.001, .sigmaPosition = 0.001};
     ClusterReport report;
     const Mesh inside = cluster(ball, options, &report);
@@ -124,7 +117,7 @@ TEST(Cluster, VerticesOfAPlaneLieOnIt) {
   Mesh tilted = plate(64);
   const Vec3d n = Vec3d{0.3, -0.5, 1} * (1 / length(Vec3d{0.3, -0.5, 1}));
   for (Vec3f& p : tilted.positions) p.z = 0.5F * p.y - 0.3F * p.x;
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     const Mesh fewer = cluster(tilted, {.cell = 0.11, .quadric = kind});
     EXPECT_GT(fewer.triangles.size(), 50u);
     // Triangles pull to their centroids, which may lie outside of the cell: then noise has a say on its border.
@@ -204,7 +197,7 @@ TEST(Cluster, StreamInPiecesGivesTheSameBytesForAnyNumberOfThreads) {
   Mesh ball = sphere(24);
   test::addNoise(ball, 0.01);
   const std::vector<std::array<Vec3f, 3>> triangles = cornersOf(ball);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     const ClusterOptions options{.cell = 0.2, .quadric = kind};
     const Mesh whole = cluster(ball, options);
     for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, std::size_t{1000}, triangles.size()}) {
@@ -221,7 +214,7 @@ TEST(Cluster, StreamInPiecesGivesTheSameBytesForAnyNumberOfThreads) {
 TEST(Cluster, UnitOfLengthDoesNotMatter) {
   Mesh ball = sphere(24);
   test::addNoise(ball, 0.01);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     const Mesh fewer = cluster(ball, {.cell = 0.2, .quadric = kind});
     for (const float scale : {0x1p-20F, 0x1p20F}) {
       Mesh scaled = ball, expected = fewer;
@@ -302,7 +295,7 @@ TEST(Cluster, TrianglesWithoutAreaCountForFacesOnly) {
   Mesh needle;
   needle.positions = {{0.5F, 0.5F, 0.5F}, {1.25F, 0.5F, 0.5F}, {2.75F, 0.5F, 0.5F}};
   needle.triangles = {{0, 1, 2}, {0, 0, 1}};
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     ClusterReport report;
     const Mesh mesh = cluster(needle, {.cell = 1, .quadric = kind}, &report);
     EXPECT_EQ(mesh.triangles, (Buffer<Triangle>{{0, 1, 2}}));
@@ -359,7 +352,7 @@ TEST(Cluster, RefusesCornersTooFarAway) {
 }
 
 TEST(Cluster, VerticesOfCellsThatReachBeyondSinglePrecisionAreFinite) {
-  for (const QuadricKind kind : kKinds)
+  for (const QuadricKind kind : test::kQuadricKinds)
     for (std::size_t v = 0; v < 8; ++v) {
       Mesh spiked = sphere(4);
       spiked.positions[v].y = std::numeric_limits<float>::max();

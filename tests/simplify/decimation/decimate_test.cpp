@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -13,20 +12,14 @@
 #include "pdc/mesh/distance.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
+#include "simplify/quadric_kinds.h"
+#include "simplify/same_bytes.h"
 #include "simplify/shapes.h"
 
 namespace pdc {
 namespace {
 
-using test::cube, test::plate, test::sphere, test::torus;
-
-constexpr QuadricKind kKinds[] = {QuadricKind::kPlane, QuadricKind::kTriangle, QuadricKind::kProbabilisticPlane,
-                                  QuadricKind::kProbabilisticTriangle, QuadricKind::kPoint};
-
-bool sameBytes(const Mesh& a, const Mesh& b) {
-  return a.triangles == b.triangles && a.positions.size() == b.positions.size() &&
-         std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3f)) == 0;
-}
+using test::cube, test::plate, test::sphere, test::torus, test::sameBytes;
 
 /// Expects a closed oriented manifold of this Euler number.
 void expectClosed(const Mesh& mesh, long long eulerNumber) {
@@ -44,7 +37,7 @@ double farthest(const Mesh& from, const Mesh& to) {
 
 TEST(Decimate, KeepsTopologyWithEveryQuadric) {
   const Mesh ball = sphere(20), ring = torus(24);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     DecimateReport report;
     const Mesh fewer = decimate(ball, {.faces = 400, .quadric = kind}, &report);
     EXPECT_EQ(fewer.triangles.size(), 400u);

@@ -5,24 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "parallel/with_threads.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/simplify/cluster.h"
 #include "pdc/simplify/decimate.h"
+#include "simplify/same_bytes.h"
 #include "simplify/shapes.h"
 
 namespace pdc {
 namespace {
 
-using test::cube, test::plate, test::sphere, test::torus;
-
-bool sameBytes(const Mesh& a, const Mesh& b) {
-  return a.triangles == b.triangles && a.positions.size() == b.positions.size() &&
-         std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3f)) == 0;
-}
+using test::cube, test::plate, test::sphere, test::torus, test::sameBytes;
 
 /// The largest distance of a corner of the square or cube [low, 1] from the nearest vertex.
 double cornerError(const Mesh& mesh, int dimensions, double low) {

@@ -7,6 +7,7 @@
 #include "parallel/with_threads.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/simplify/decimate.h"
+#include "simplify/quadric_kinds.h"
 #include "simplify/shapes.h"
 
 namespace pdc {
@@ -61,12 +62,10 @@ Mesh damagedMesh(Random& random) {
 }
 
 DecimateOptions someOptions(const Mesh& mesh, Random& random) {
-  constexpr QuadricKind kKinds[] = {QuadricKind::kPlane, QuadricKind::kTriangle, QuadricKind::kProbabilisticPlane,
-                                    QuadricKind::kProbabilisticTriangle, QuadricKind::kPoint};
   constexpr double kDistances[] = {1e-300, 1e-6, 0.1, 0.6, 1.1, 2};  // In mean edge lengths.
   DecimateOptions options;
   options.faces = below(random, 2) == 0 ? 0 : mesh.triangles.size() / 3;
-  options.quadric = kKinds[below(random, 5)];
+  options.quadric = test::kQuadricKinds[below(random, 5)];
   options.placement = below(random, 3) == 0 ? CollapsePlacement::kSubset : CollapsePlacement::kMinimizer;
   options.lockBoundary = below(random, 5) == 0;
   options.maxTurn = below(random, 4) == 0 ? 90 : 75;

@@ -4,27 +4,20 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "parallel/with_threads.h"
 #include "pdc/mesh/mesh_report.h"
+#include "simplify/quadric_kinds.h"
+#include "simplify/same_bytes.h"
 #include "simplify/shapes.h"
 
 namespace pdc {
 namespace {
 
-using test::cube, test::plate, test::sphere, test::torus;
-
-constexpr QuadricKind kKinds[] = {QuadricKind::kPlane, QuadricKind::kTriangle, QuadricKind::kProbabilisticPlane,
-                                  QuadricKind::kProbabilisticTriangle, QuadricKind::kPoint};
-
-bool sameBytes(const Mesh& a, const Mesh& b) {
-  return a.triangles == b.triangles && a.positions.size() == b.positions.size() &&
-         std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3f)) == 0;
-}
+using test::cube, test::plate, test::sphere, test::torus, test::sameBytes;
 
 /// Adds a mesh to another, moved.
 void add(Mesh& mesh, const Mesh& other, const Vec3f& by) {
@@ -99,7 +92,7 @@ TEST(PairContraction, RowOfCubesBecomesABar) {
 
 TEST(PairContraction, ClosedManifoldWithoutClosePairsStaysOne) {
   const Mesh ball = sphere(20), ring = torus(24);
-  for (const QuadricKind kind : kKinds) {
+  for (const QuadricKind kind : test::kQuadricKinds) {
     DecimateReport report;
     const Mesh fewer = decimate(ball, {.faces = 400, .quadric = kind, .pairDistance = 0.01}, &report);
     EXPECT_EQ(fewer.triangles.size(), 400u);
