@@ -51,14 +51,18 @@ NearestTriangles::NearestTriangles(const Mesh& mesh)
     : mMesh(mesh), mTree(mesh, finiteTriangles(mesh)), mRounding(roundingOf(mesh)) {}
 
 NearestTriangle NearestTriangles::find(const Vec3d& p, std::uint32_t guess) const {
-  NearestTriangle nearest;
+  return findBelow(std::numeric_limits<double>::infinity(), p, guess);
+}
+
+NearestTriangle NearestTriangles::findBelow(double bound, const Vec3d& p, std::uint32_t guess) const {
+  NearestTriangle nearest{.squared = bound};
   const auto visit = [&](std::uint32_t t) {
     const double squared = squaredToTriangle(p, points(mMesh, t));
     if (squared < nearest.squared) nearest = {t, squared};
   };
   if (guess != NearestTriangle::kNone) visit(guess);
   mTree.visitNearest(p, nearest.squared, visit);
-  return nearest;
+  return nearest.number != NearestTriangle::kNone ? nearest : NearestTriangle{};
 }
 
 NearestTriangle NearestTriangles::find(const Vec3d& p, const Vec3d& normal, std::uint32_t guess) const {

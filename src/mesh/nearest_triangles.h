@@ -29,6 +29,10 @@ class NearestTriangles {
   /// The nearest triangle to a finite point. \param guess a triangle that may be near, or kNone; it only saves time.
   [[nodiscard]] NearestTriangle find(const Vec3d& p, std::uint32_t guess = NearestTriangle::kNone) const;
 
+  /// The nearest triangle to a finite point if the square of its distance is below a bound, which saves most of the
+  /// search where it is small.
+  [[nodiscard]] NearestTriangle findBelow(double squared, const Vec3d& p, std::uint32_t guess) const;
+
   /// Among the triangles that are equally near, but for rounding, the one whose normal is nearest to a given one: a
   /// point beyond a ridge is as near to one side as to the other. Triangles without area come last.
   [[nodiscard]] NearestTriangle find(const Vec3d& p, const Vec3d& normal, std::uint32_t guess) const;

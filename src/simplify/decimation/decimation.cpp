@@ -61,6 +61,7 @@ Decimation::Decimation(DecimatedSurface& surface, const GivenSurface& given, Int
       mRemembers(rule.memory > 0 || (surface.noise.known() && rule.memoryOfVertices)),
       mTouched(surface.positions.size(), 0),
       mChanged(rule.mayRefuse() ? surface.positions.size() : 0, 0),
+      mFirstCost(mChanged.size(), 0),
       mBecame(surface.positions.size()),
       mCollapse(surface.positions, mQuadrics, surface.locked) {
   std::iota(mBecame.begin(), mBecame.end(), 0U);
@@ -93,7 +94,7 @@ void Decimation::run(const Monitor& monitor) {
   }
 }
 
-/// Finds what the faces say of each vertex.
+/// Finds what the faces say of each vertex about which any has changed.
 void Decimation::look() {
   const std::vector<Vec3d>& p = mSurface.positions;
   mStars.build(mSurface.faces, p.size());
@@ -106,7 +107,7 @@ void Decimation::look() {
   mQuadrics.resize(p.size());
   forEachWithSimd(p.size(), 1024, [&](std::size_t v) {
     const auto vertex = static_cast<std::uint32_t>(v);
-    if (mStars[vertex].empty()) return;
+    if (mStars[vertex].empty() || !hasChanged(vertex)) return;
     QuadricRule rule = mRule.quadrics;
     if (mSurface.noise.known()) rule.sigmaNormal = noiseOf(vertex).sigmaNormal;
     mQuadrics[v] = vertexQuadric(vertex, mStars[vertex], p, mAreas, rule);
@@ -134,7 +135,7 @@ void Decimation::remember() {
   if (first) mAccumulated.resize(size);
   forEachInParallel(size, 1024, [&](std::size_t v) {
     const auto vertex = static_cast<std::uint32_t>(v);
-    if (mStars[vertex].empty()) return;
+    if (mStars[vertex].empty() || !hasChanged(vertex)) return;
     if (first) mAccumulated[v] = mQuadrics[v].q;
     const double memory = noiseOf(vertex).memory;
     mQuadrics[v].q = mQuadrics[v].q * (1 - memory) + mAccumulated[v] * memory;
@@ -151,8 +152,9 @@ EdgeCollapse Decimation::collapseOf(std::uint32_t a, std::uint32_t b) const {
   return c;
 }
 
-/// Finds what it costs to collapse the edges of some vertices.
-inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end) {
+/// Finds what it costs to collapse the edges of some vertices. \param before the costs of the round before, by the
+/// corners of that time.
+inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end, const Buffer<float>& before) {
   EdgeLanes lanes;
   alignas(64) double costs[kLanes];
   const auto solve = [&] {
@@ -162,15 +164,19 @@ inline void Decimation::findCostsOf(std::uint32_t begin, std::uint32_t end) {
   };
   for (std::uint32_t a = begin; a < end; ++a) {
     const std::span<const StarCorner> star = mStars[a];
+    const bool changed = hasChanged(a);
     for (std::size_t k = 0; k < star.size(); ++k) {
       const auto corner = static_cast<std::uint32_t>(mStars.first(a) + k);
       const std::uint32_t b = star[k].next;
+      if (!changed && !hasChanged(b)) {
+        mCosts[corner] = before[mFirstCost[a] + k];
+        continue;
+      }
       const StarCorner* const twin = cornerAfter(star, b);
       mCosts[corner] = kNever;
       // The edge is its lower end's, unless it runs towards that only.
       if (b < a && twin != nullptr) continue;
       if (mSurface.locked[a] != 0 && mSurface.locked[b] != 0) continue;
-      if (isRefused(std::min(a, b), std::max(a, b))) continue;
       if (mRule.error && isHub(mStars, a, b)) continue;
       if (!mCollapse.inLanes(a, b)) {
         mCosts[corner] = costAlone(corner);
@@ -200,9 +206,15 @@ std::array<std::uint32_t, 2> Decimation::edgeAt(std::uint32_t corner) const {
 }
 
 void Decimation::findCosts() {
+  mCostsBefore.swap(mCosts);
   mCosts.resize(mStars.cornerCount());
   const tbb::blocked_range<std::uint32_t> all(0, static_cast<std::uint32_t>(mSurface.positions.size()), 512);
-  tbb::parallel_for(all, [&](const auto& r) { withSimd(bestSimdLevel(), [&] { findCostsOf(r.begin(), r.end()); }); });
+  tbb::parallel_for(all, [&](const auto& r) {
+    withSimd(bestSimdLevel(), [&] { findCostsOf(r.begin(), r.end(), mCostsBefore); });
+    // Ranges do not share vertices, and what was first is not needed any more.
+    if (mRule.mayRefuse())
+      for (std::uint32_t v = r.begin(); v != r.end(); ++v) mFirstCost[v] = mStars.first(v);
+  });
 }
 
 /// A cost that about `count` edges have at most.
@@ -280,17 +292,13 @@ std::vector<ChosenCollapse> Decimation::choose(const std::vector<Candidate>& can
   return chosen;
 }
 
-/// \returns how many there are.
+/// Lets edges wait until a collapse touches an end. \returns how many there are.
 std::size_t Decimation::refuse(const std::vector<ChosenCollapse>& collapses) {
   for (const ChosenCollapse& c : collapses)
-    mRefused[vertexPairKey(std::min(c.a, c.b), std::max(c.a, c.b))] = static_cast<std::uint32_t>(mRounds);
+    for (const auto& [v, other] : {std::array{c.a, c.b}, std::array{c.b, c.a}})
+      for (std::uint32_t k = 0; k < mStars[v].size(); ++k)
+        if (mStars[v][k].next == other) mCosts[mStars.first(v) + k] = kNever;
   return collapses.size();
-}
-
-bool Decimation::isRefused(std::uint32_t a, std::uint32_t b) const {
-  if (mRefused.empty()) return false;
-  const auto found = mRefused.find(vertexPairKey(a, b));
-  return found != mRefused.end() && mChanged[a] <= found->second && mChanged[b] <= found->second;
 }
 
 /// From adding up what collapses do to looking at the surface given, which takes far longer and lets more be done.
@@ -299,7 +307,7 @@ bool Decimation::lookCloser(const Monitor& monitor) {
   if (!mTracked) return false;
   mTracked.reset();
   mBound.emplace(mGiven.faces, mSurface, *mRule.error, monitor);
-  mRefused.clear();
+  std::fill(mChanged.begin(), mChanged.end(), static_cast<std::uint32_t>(mRounds));
   return true;
 }
 

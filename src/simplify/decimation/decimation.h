@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "pdc/monitor.h"
@@ -74,7 +73,7 @@ class Decimation {
   [[nodiscard]] NoiseChoice noiseOf(std::uint32_t vertex) const;
   void remember();
   void findCosts();
-  void findCostsOf(std::uint32_t begin, std::uint32_t end);
+  void findCostsOf(std::uint32_t begin, std::uint32_t end, const Buffer<float>& before);
   [[nodiscard]] float costAlone(std::uint32_t corner) const;
   [[nodiscard]] std::array<std::uint32_t, 2> edgeAt(std::uint32_t corner) const;
   [[nodiscard]] float costOfCheapest(std::size_t count) const;
@@ -86,7 +85,10 @@ class Decimation {
   void apply(const std::vector<ChosenCollapse>& chosen);
   void removeVanished();
   std::size_t refuse(const std::vector<ChosenCollapse>& collapses);
-  [[nodiscard]] bool isRefused(std::uint32_t a, std::uint32_t b) const;
+  /// Whether the faces about a vertex are others than in the round before, as far as that is known.
+  [[nodiscard]] bool hasChanged(std::uint32_t vertex) const {
+    return mChanged.empty() || mChanged[vertex] + 1 == mRounds;
+  }
   [[nodiscard]] std::size_t facesAt(std::uint32_t a, std::uint32_t b) const;
 
   DecimatedSurface& mSurface;
@@ -98,13 +100,13 @@ class Decimation {
   Buffer<FaceArea> mAreas;
   Buffer<VertexQuadric> mQuadrics;
   std::vector<Quadric<double>> mAccumulated;
-  Buffer<float> mCosts;  ///< By corner: of the edge that leaves the vertex there; infinite if it is another's.
+  /// By corner: of the edge that leaves the vertex there; infinite if it is another's, or was refused.
+  Buffer<float> mCosts, mCostsBefore;
   std::vector<std::uint32_t> mTouched;  ///< By vertex, the round in which a chosen collapse last touched it.
   std::vector<std::uint32_t> mChanged;  ///< By vertex, the round in which one was done; only where any may be refused.
+  std::vector<std::uint32_t> mFirstCost;  ///< By vertex, where its costs of the round before begin; likewise.
   std::vector<std::uint32_t> mBecame;
   CollapseRule mCollapse;
-  /// By the ends of an edge, the round in which its collapse was refused. It waits until a collapse touches an end.
-  std::unordered_map<std::uint64_t, std::uint32_t> mRefused;
   std::optional<TrackedError> mTracked;  ///< At first, where there is a bound on the error; then mBound.
   std::optional<ErrorBound> mBound;
   FacePairs mIntersecting;  ///< Where the surface has to be sound.

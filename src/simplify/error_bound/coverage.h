@@ -41,9 +41,9 @@ struct Prism {
 /// cut along the prisms of the surface's triangles, since the distance to one triangle is convex: where the corners of
 /// a part are near, all of it is. What remains over edges and vertices is halved.
 ///
-/// \tparam Surface has triangles with numbers: `prism(number)`; `nearest(point, guess)`, a NearestTriangle;
-/// `beyond(number, k)`, the triangle across the edge after corner k, or kNone; `use(number)`, called for each triangle
-/// that parts are near to.
+/// \tparam Surface has triangles with numbers: `prism(number)`; `nearest(point, guess)`, a NearestTriangle, which need
+/// not be found where it is not nearer than the distance; `beyond(number, k)`, the triangle across the edge after
+/// corner k, or kNone; `use(number)`, called for each triangle that parts are near to.
 template <typename Surface>
 class Coverage {
  public:
@@ -102,7 +102,7 @@ class Coverage {
     }
     const auto nearest = mSurface.nearest(center, last);
     const double d = std::sqrt(nearest.squared);
-    if (!(d <= mDistance)) return false;
+    if (!(d < mDistance)) return false;
     if (nearest.number != last && reduce(piece, nearest.number, mSurface.prism(nearest.number))) return true;
     // The distance grows by no more than one goes.
     const double radius = length(farthestFrom(center, piece) - center);

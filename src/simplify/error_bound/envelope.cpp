@@ -20,7 +20,7 @@ class Envelope::Walk {
     return mPrism;
   }
   [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t guess) const {
-    return mEnvelope.mNearest.find(p, guess);
+    return mEnvelope.findNear(p, guess);
   }
   [[nodiscard]] std::uint32_t beyond(std::uint32_t t, int k) const { return mEnvelope.mBeyond[t][k]; }
   void use(std::uint32_t t) {
@@ -47,9 +47,10 @@ Envelope::Envelope(const Mesh& surface, double distance)
   });
 }
 
-std::uint32_t Envelope::nearest(const Vec3d& p, std::uint32_t guess) const {
-  const NearestTriangle found = mNearest.find(p, guess);
-  return found.squared <= mDistance * mDistance ? found.number : kNone;
+std::uint32_t Envelope::nearest(const Vec3d& p, std::uint32_t guess) const { return findNear(p, guess).number; }
+
+NearestTriangle Envelope::findNear(const Vec3d& p, std::uint32_t guess) const {
+  return mNearest.findBelow(mDistance * mDistance, p, guess);
 }
 
 bool Envelope::contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used) const {

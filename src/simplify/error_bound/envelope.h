@@ -32,6 +32,8 @@ class Envelope {
  private:
   class Walk;
 
+  [[nodiscard]] NearestTriangle findNear(const Vec3d& p, std::uint32_t guess) const;
+
   const Mesh& mSurface;
   const double mDistance;
   NearestTriangles mNearest;
