@@ -57,7 +57,10 @@ NearestTriangle NearestTriangles::find(const Vec3d& p, std::uint32_t guess) cons
 NearestTriangle NearestTriangles::findBelow(double bound, const Vec3d& p, std::uint32_t guess) const {
   NearestTriangle nearest{.squared = bound};
   const auto visit = [&](std::uint32_t t) {
-    const double squared = squaredToTriangle(p, points(mMesh, t));
+    const TriangleCorners own = corners(mMesh, triangle(mMesh, t));
+    if (!(boxOf(own).squaredDistance(p) < nearest.squared)) return;
+    const double squared =
+        squaredToTriangle(p, {vecCast<double>(own[0]), vecCast<double>(own[1]), vecCast<double>(own[2])});
     if (squared < nearest.squared) nearest = {t, squared};
   };
   if (guess != NearestTriangle::kNone) visit(guess);

@@ -32,6 +32,8 @@ class TriangleTree {
   explicit TriangleTree(const Mesh& mesh, Buffer<std::uint32_t> triangles, std::span<const std::uint32_t> hubs = {},
                         float margin = 0);
 
+  /// Numbers of all triangles, as the leaves have them.
+  [[nodiscard]] std::span<const std::uint32_t> triangles() const { return mTriangles; }
   [[nodiscard]] std::size_t leafCount() const { return mLevels.empty() ? 0 : mLevels.front().size(); }
   /// Numbers of the triangles of a leaf.
   [[nodiscard]] std::span<const std::uint32_t> leaf(std::size_t i) const { return part(mTriangles, i); }
@@ -45,6 +47,16 @@ class TriangleTree {
   template <typename Visit>
   bool visitNeighbours(std::size_t i, Visit&& visit) const {
     return visitBelow(mLevels.size() - 1, 0, {i, mLevels.front()[i], sliverNode(0, i)}, visit);
+  }
+
+  /// Calls visit(triangle) for all triangles of leaves whose boxes meet a box. The order depends on the tree only.
+  template <typename Visit>
+  void visitMeeting(const BoxF& box, Visit&& visit) const {
+    const auto visitLeaf = [&](std::size_t node) {
+      for (const std::uint32_t t : leaf(node)) visit(t);
+      return true;
+    };
+    if (!mLevels.empty()) visitBelow(mLevels.size() - 1, 0, {0, box, nullptr}, visitLeaf);
   }
 
   /// Calls visit(triangle) for all triangles that may be nearer to p than the square root of `reach`, which the visitor

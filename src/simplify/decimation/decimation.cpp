@@ -73,7 +73,7 @@ Decimation::Decimation(DecimatedSurface& surface, const GivenSurface& given, Int
 void Decimation::run(const Monitor& monitor) {
   const std::size_t before = mSurface.faces.size(), wanted = before - std::min(before, mRule.targetFaces);
   std::size_t least = kLeastOfRound;
-  if (mRule.sound) mIntersecting = intersectingFaces(mSurface, mSurface.positions, mSurface.faces, monitor);
+  if (mRule.sound) mIntersections.emplace(mSurface, monitor);
   while (mSurface.faces.size() > mRule.targetFaces) {
     monitor.throwIfStopped();
     ++mRounds;
@@ -314,23 +314,18 @@ bool Decimation::lookCloser(const Monitor& monitor) {
 /// Takes out collapses after which the surface would not be what it has to be.
 void Decimation::takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor) {
   if (mTracked) mErrorRefusals += refuse(mTracked->takeOutFar(mStars, chosen));
-  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen, monitor));
-  while (mRule.sound) {
-    FacePairs pairs = mIntersecting;
-    const std::size_t refused = refuse(takeOutIntersecting(mSurface, mStars, chosen, pairs, monitor));
-    mIntersectionRefusals += refused;
-    // Fewer of them may go farther than all.
-    const std::size_t more = mBound && refused > 0 ? refuse(mBound->restrictTo(mStars, chosen)) : 0;
-    mErrorRefusals += more;
-    if (more > 0) continue;
-    mIntersecting = std::move(pairs);
-    break;
+  if (mIntersections) {
+    const std::vector<ChosenCollapse> all = chosen, impossible = mIntersections->takeOut(mStars, chosen, monitor);
+    // Where all only wait for each other none would ever go on.
+    mIntersectionRefusals += refuse(chosen.empty() ? all : impossible);
   }
+  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen, monitor));
 }
 
 /// Their stars have no face in common, so that they do not see each other.
 void Decimation::apply(const std::vector<ChosenCollapse>& chosen) {
   if (mTracked) mTracked->accept(mStars, chosen);
+  if (mIntersections) mIntersections->accept(mStars, chosen);
   if (mBound) mBound->accept(mStars);
   std::vector<Vec3d>& p = mSurface.positions;
   forEachInParallel(chosen.size(), 64, [&](std::size_t i) {
@@ -366,6 +361,7 @@ void Decimation::removeVanished() {
     const Triangle& t = mSurface.faces[f];
     if (t[0] == t[1] && t[1] == t[2]) continue;
     if (mTracked) mTracked->renumber(f, kept);
+    if (mIntersections) mIntersections->renumber(f, kept);
     if (mBound) mBound->renumber(f, kept);
     mSurface.faces[kept++] = t;
   }

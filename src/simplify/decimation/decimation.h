@@ -109,7 +109,7 @@ class Decimation {
   CollapseRule mCollapse;
   std::optional<TrackedError> mTracked;  ///< At first, where there is a bound on the error; then mBound.
   std::optional<ErrorBound> mBound;
-  FacePairs mIntersecting;  ///< Where the surface has to be sound.
+  std::optional<NewIntersections> mIntersections;  ///< Where the surface has to be sound.
   std::size_t mRounds = 0, mCollapses = 0, mLimitedMoves = 0, mIntersectionRefusals = 0, mErrorRefusals = 0;
 };
 

@@ -6,7 +6,7 @@
 #include "mesh/point_triangle.h"
 #include "parallel/for_each_in_parallel.h"
 #include "pdc/math/solvers.h"
-#include "simplify/decimation/new_intersections.h"
+#include "simplify/decimation/intersecting_faces.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {

@@ -137,19 +137,6 @@ std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std
   return out;
 }
 
-std::vector<ChosenCollapse> ErrorBound::restrictTo(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
-  std::vector<Change> changes;
-  std::size_t next = 0;
-  for (Change& c : mChanges) {
-    putInto(c.collapse, placeOf(c.collapse.a), placeOf(c.collapse.b));
-    if (next == collapses.size() || collapses[next].a != c.collapse.a || collapses[next].b != c.collapse.b) continue;
-    changes.push_back(std::move(c));
-    ++next;
-  }
-  mChanges = std::move(changes);
-  return joinAll(stars, collapses);
-}
-
 /// Takes out the changes that do not hold beside those before them.
 std::vector<ChosenCollapse> ErrorBound::joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
   std::vector<ChosenCollapse> out;

@@ -30,9 +30,6 @@ class ErrorBound {
   /// \returns those taken out. \throws Cancelled.
   [[nodiscard]] std::vector<ChosenCollapse> takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses,
                                                        const Monitor& monitor);
-  /// Makes ready for some of them only, in the same order. \returns those taken out as well.
-  [[nodiscard]] std::vector<ChosenCollapse> restrictTo(const VertexStars& stars,
-                                                       std::vector<ChosenCollapse>& collapses);
   /// What it is ready for is going to be done. \pre No face has another number yet.
   void accept(const VertexStars& stars);
   /// Tells that a face has another number from now on; lower numbers come first.
