@@ -20,9 +20,10 @@ Json toJson(const std::optional<GridMeaning>& meaning) {
           {"half_width_voxels", meaning->halfWidth}};
 }
 
-Json adaptiveJson(const MeshRun& run) {
+Json adaptiveJson(const MeshRequest& request, const MeshRun& run) {
   if (!run.options.adaptive) return nullptr;
   return {{"distance", *run.options.adaptive},
+          {"grid", request.adaptiveGrid ? Json(*request.adaptiveGrid) : Json()},
           {"triangles_before", run.contour.trianglesBefore},
           {"largest_vertex_distance", run.contour.adaptedDistance}};
 }
@@ -58,7 +59,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
-          {"adaptive", adaptiveJson(run)},
+          {"adaptive", adaptiveJson(request, run)},
           {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
           {"median_sigma_n", run.contour.medianSigmaNormal},
           {"normal_noise", run.contour.normalNoise},

@@ -121,6 +121,7 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
   run.options = request.contourOptions(input.sigmaNormal);
   if (request.adaptive)
     run.options.adaptive = request.adaptive->value * (request.adaptive->suffixed ? input.source->map().voxelSize() : 1);
+  run.options.adaptiveScale = input.adaptiveScale;
 
   checkForecast(request, input, run);
   Mesh mesh;
@@ -186,8 +187,9 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
                run.contour.normalNoise);
   if (run.options.adaptive)
     fmt::print(
-        "{} triangles before; no point of either surface is farther than {:.4g} from the other, vertices {:.4g}\n",
-        run.contour.trianglesBefore, *run.options.adaptive, run.contour.adaptedDistance);
+        "{} triangles before; no point of either surface is farther than {:.4g}{} from the other, vertices {:.4g}\n",
+        run.contour.trianglesBefore, *run.options.adaptive,
+        request.adaptiveGrid ? fmt::format(" times '{}'", *request.adaptiveGrid) : "", run.contour.adaptedDistance);
   fmt::print("{:.2f} s: reading {:.2f}, contouring {:.2f}, writing {:.2f}\n", run.secondsTotal, run.secondsRead,
              run.secondsContour, run.secondsWrite);
 }
@@ -196,6 +198,7 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
 
 void runMesh(const MeshRequest& request) {
   checkMeshRequest(request);
+  if (request.adaptiveGrid && !request.adaptive) throw CLI::ValidationError("--adaptive-grid", "needs --adaptive");
   checkMeshPath(request.output);
   checkJsonPath(request.json);
 

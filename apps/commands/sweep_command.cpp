@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -59,12 +60,17 @@ class Warnings {
   std::set<std::string> mSaid;
 };
 
-SweepInput openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference,
+struct OpenedStep {
+  SweepInput input;
+  std::function<double(const Vec3d&)> adaptiveScale;  ///< See Input.
+};
+
+OpenedStep openStep(const SweepRequest& request, const MeshRequest& mesh, const SweepTruth& reference,
                     Warnings& warnings) {
   Input input = reading(mesh.input, mesh.quiet, [&] { return openInput(mesh.input, mesh.inputOptions()); });
   warnings.say(input);
   SweepTruth truth = request.reference.empty() ? truthOf(input) : reference;
-  return {std::move(input.source), std::move(truth)};
+  return {{std::move(input.source), std::move(truth)}, std::move(input.adaptiveScale)};
 }
 
 Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
@@ -72,8 +78,9 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       request.reference.empty() ? SweepTruth{} : readReference(request.reference, request.mesh.quiet);
   const SweepParameter parameter = request.parameter();
   Warnings warnings;
-  SweepInput first = openStep(request, request.mesh, reference, warnings);
+  auto [first, scale] = openStep(request, request.mesh, reference, warnings);
   SweepOptions options{.contour = request.mesh.contourOptions(kPapersSigmaNormal), .truth = {}};
+  options.contour.adaptiveScale = std::move(scale);
   options.contour.origin.reset();  // Wherever the surface lies, its measures should not be those of rounding.
   if (parameter == SweepParameter::kAdaptive) {
     std::vector<double> distances = request.adaptive;
@@ -93,7 +100,7 @@ Sweep contourAll(const SweepRequest& request, const Monitor& monitor) {
       [&](double value) {
         MeshRequest mesh = request.mesh;
         (parameter == SweepParameter::kIso ? mesh.iso : mesh.voxelSize) = value;
-        return openStep(request, mesh, reference, warnings);
+        return openStep(request, mesh, reference, warnings).input;
       },
       options, monitor);
 }

@@ -97,6 +97,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
       ->group(grids);
   addGridMeaning(command, request, grids);
   addNoiseGrids(command, request, grids);
+  addAdaptiveGrid(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -131,6 +132,7 @@ InputOptions MeshRequest::inputOptions() const {
           .floodFill = floodFill,
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
+          .adaptiveGrid = adaptiveGrid,
           .voxelSize = voxelSize,
           .resolution = resolution};
 }
@@ -191,6 +193,15 @@ void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& g
       ->group(group);
 }
 
+void addAdaptiveGrid(CLI::App& command, MeshRequest& request, const std::string& group) {
+  command
+      .add_option("--adaptive-grid", request.adaptiveGrid,
+                  "Grid of the same file by which the distance of --adaptive is\nmultiplied: 1 keeps it, 0.1 leaves a "
+                  "tenth")
+      ->type_name("NAME")
+      ->group(group);
+}
+
 void addMeshOptions(CLI::App& command, MeshRequest& request) {
   command.add_option("INPUT", request.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
   command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
@@ -223,6 +234,7 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.resolution.has_value(), "--resolution", "scenes");
       checkNoiseGrid(request, "--sigma-grid", request.sigmaGrid);
       checkNoiseGrid(request, "--weight-grid", request.weightGrid);
+      checkNoiseGrid(request, "--adaptive-grid", request.adaptiveGrid);
       break;
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
@@ -232,6 +244,7 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.floodFill, "--flood-fill", ".vdb inputs");
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
+      refuseOther(request.adaptiveGrid.has_value(), "--adaptive-grid", ".vdb inputs");
       break;
     case InputKind::kOther:
       throw Error(

@@ -14,7 +14,7 @@ namespace pdc {
 /// What the command line of `pdc mesh` says. What is empty was not said.
 struct MeshRequest {
   std::filesystem::path input, output, json;
-  std::optional<std::string> grid, sigmaGrid, weightGrid;
+  std::optional<std::string> grid, sigmaGrid, weightGrid, adaptiveGrid;
   std::optional<bool> acceptNonFinite;
   std::optional<HermiteMode> hermite;
   std::optional<GridClass> gridClass;
@@ -53,12 +53,15 @@ CLI::Option* addNonFinite(CLI::App& command, std::optional<bool>& target);
 /// Declares --sigma-grid and --weight-grid.
 void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& group);
 
+/// Declares --adaptive-grid.
+void addAdaptiveGrid(CLI::App& command, MeshRequest& request, const std::string& group);
+
 /// Declares --class, --inside and --flood-fill.
 void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// \throws CLI::ValidationError for options that do not go with the kind of input, or a report that would replace the
-/// input or the output; Error for an input that is neither grid nor scene, and for σ and weight grids without a name or
-/// with that of the grid.
+/// input or the output; Error for an input that is neither grid nor scene, and for σ, weight and adaptive grids without
+/// a name or with that of the grid.
 void checkMeshRequest(const MeshRequest& request);
 
 }  // namespace pdc

@@ -106,6 +106,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   command.add_option("--grid", mesh.grid, "Grid to take, if the .vdb has several")->type_name("NAME");
   addGridMeaning(command, mesh, "OPTIONS");
   addNoiseGrids(command, mesh, "OPTIONS");
+  addAdaptiveGrid(command, mesh, "OPTIONS");
   command
       .add_option("--reference", request.reference,
                   "What the surface should be, a mesh or a scene\n(a scene that is swept is its own)")
@@ -130,6 +131,8 @@ void settleSweepRequest(SweepRequest& request) {
     if (swept != nullptr) throw CLI::ValidationError(name, fmt::format("and {} have several values", swept));
     swept = name;
   }
+  const bool adapts = std::any_of(request.adaptive.begin(), request.adaptive.end(), [](double d) { return d > 0; });
+  if (request.mesh.adaptiveGrid && !adapts) throw CLI::ValidationError("--adaptive-grid", "needs --adaptive");
   if (swept == nullptr && request.sigmas.empty())
     request.sigmas = {0, 0.05, 0.1, 0.25, std::numeric_limits<double>::infinity()};
   if (!request.isos.empty()) request.mesh.iso = request.isos.front();

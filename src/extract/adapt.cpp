@@ -1,12 +1,18 @@
 #include "extract/adapt.h"
 
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "pdc/error.h"
 #include "pdc/mesh/distance.h"
 #include "pdc/simplify/decimate.h"
 
@@ -61,6 +67,40 @@ void restoreQuads(const Mesh& full, Mesh& mesh) {
   mesh.triangles.resize(kept);
 }
 
+/// The property that decimation takes scales from. No vertex of a contour has another of that name.
+constexpr const char* kScaleName = "adaptive scale";
+
+/// Lowers what vertices have to the least of their neighbours'.
+void takeLeast(const Mesh& mesh, Buffer<float>& scales) {
+  const Buffer<float> own = scales;
+  const auto lower = [&](const auto& face) {
+    float least = own[face[0]];
+    for (const std::uint32_t v : face) least = std::min(least, own[v]);
+    for (const std::uint32_t v : face) scales[v] = std::min(scales[v], least);
+  };
+  for (const Quad& q : mesh.quads) lower(q);
+  for (const Triangle& t : mesh.triangles) lower(t);
+}
+
+/// What a scale is at each vertex and its neighbours, the least of it.
+Buffer<float> leastScales(const Mesh& mesh, const std::function<double(const Vec3d&)>& scale, const Monitor& monitor) {
+  Buffer<float> scales(mesh.positions.size());
+  const auto place = [&](std::size_t v) { return mesh.origin + vecCast<double>(mesh.positions[v]); };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scales.size(), 1024), [&](const auto& r) {
+    if (monitor.stopped()) return;
+    for (std::size_t v = r.begin(); v < r.end(); ++v) scales[v] = static_cast<float>(scale(place(v)));
+  });
+  monitor.throwIfStopped();
+  for (std::size_t v = 0; v < scales.size(); ++v) {
+    if (scales[v] >= 0 && std::isfinite(scales[v])) continue;
+    const Vec3d p = place(v);
+    throw Error(fmt::format("the adaptive scale at ({:.6g}, {:.6g}, {:.6g}) is {}; the limit is a finite number >= 0",
+                            p.x, p.y, p.z, scales[v]));
+  }
+  takeLeast(mesh, scales);
+  return scales;
+}
+
 double farthest(const Mesh& from, const Mesh& to, const Monitor& monitor) {
   double most = 0;
   for (const double d : vertexDistances(from, to, monitor)) most = std::max(most, d);
@@ -69,15 +109,22 @@ double farthest(const Mesh& from, const Mesh& to, const Monitor& monitor) {
 
 }  // namespace
 
-Adapted adapt(const Mesh& full, double distance, double step, bool triangles, const Monitor& monitor) {
+Adapted adapt(Mesh& full, const ContourOptions& options, double step, const Monitor& monitor) {
   DecimateReport report;
   Adapted adapted;
-  adapted.mesh = decimate(full, {.error = MeshLength(distance), .sound = true, .positionStep = step}, &report, monitor);
+  DecimateOptions decimation{.error = MeshLength(*options.adaptive), .sound = true, .positionStep = step};
+  if (options.adaptiveScale) {
+    decimation.errorScale = kScaleName;
+    full.properties.push_back({kScaleName, 1, leastScales(full, options.adaptiveScale, monitor)});
+  }
+  adapted.mesh = decimate(full, decimation, &report, monitor);
+  if (options.adaptiveScale)
+    for (Mesh* const mesh : {&full, &adapted.mesh}) mesh->properties.pop_back();
   adapted.trianglesBefore = report.facesBefore;
   if (adapted.mesh.empty()) return adapted;
   const Monitor quiet{.progress = {}, .stop = monitor.stop};
   adapted.distance = std::max(farthest(adapted.mesh, full, quiet), farthest(full, adapted.mesh, quiet));
-  if (!triangles) restoreQuads(full, adapted.mesh);
+  if (!options.triangles) restoreQuads(full, adapted.mesh);
   return adapted;
 }
 

@@ -10,10 +10,11 @@ struct Adapted {
   double distance = 0;  ///< The largest from a vertex of either surface to the other.
 };
 
-/// A mesh of fewer faces within a distance of a contour: see ContourOptions::adaptive. Runs in parallel; the result
-/// does not depend on the number of threads. \param distance in world units. \param step that coordinates are multiples
-/// of; 0 for none. \param triangles whether quads at which nothing was collapsed are to be split like the others.
-/// \throws Cancelled. Progress: "decimate".
-[[nodiscard]] Adapted adapt(const Mesh& full, double distance, double step, bool triangles, const Monitor& monitor);
+/// A mesh of fewer faces within a distance of a contour: see ContourOptions::adaptive, which has to be set, and
+/// adaptiveScale. With ContourOptions::triangles quads at which nothing was collapsed are split like the others. Runs
+/// in parallel; the result does not depend on the number of threads. \param full left as it is, but changed on the way.
+/// \param step that coordinates are multiples of; 0 for none. \throws Error for a scale that is none; Cancelled.
+/// Progress: "decimate".
+[[nodiscard]] Adapted adapt(Mesh& full, const ContourOptions& options, double step, const Monitor& monitor);
 
 }  // namespace pdc::detail

@@ -84,7 +84,7 @@ Mesh run(const HermiteSource& world, const ContourOptions& options, ContourRepor
   if (options.quadrics) quadrics = vertexQuadrics(surface, sigma, mesh, monitor);
   detail::Adapted adapted;
   if (options.adaptive) {
-    adapted = detail::adapt(mesh, *options.adaptive, place.step, options.triangles, monitor);
+    adapted = detail::adapt(mesh, options, place.step, monitor);
     mesh = std::move(adapted.mesh);
   }
   if (options.triangles) splitQuads(mesh);

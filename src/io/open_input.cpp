@@ -11,6 +11,7 @@
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/sample/implicit/field_source.h"
+#include "pdc/sample/vdb/grid_function.h"
 
 namespace pdc {
 namespace {
@@ -35,6 +36,7 @@ void checkSceneOptions(const fs::path& path, const InputOptions& options) {
   refuseOther(options.floodFill, path, "flood filling", grids);
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
+  refuseOther(options.adaptiveGrid.has_value(), path, "an adaptive grid", grids);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
   if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
     throw Error(fmt::format("the resolution must be from 1 to {}, not {}", kMaxVoxelsPerAxis, *options.resolution));
@@ -74,6 +76,8 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
                               .inside = options.inside,
                               .floodFill = options.floodFill});
   Input input;
+  if (const auto scale = readCompanion(path, options.adaptiveGrid, *grid, "adaptive"))
+    input.adaptiveScale = gridFunction(scale);
   input.iso = source->iso();
   input.planeOrigin = source->usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
   input.valueNoise = source->valueNoise();

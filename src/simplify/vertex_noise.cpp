@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <variant>
 
 #include "pdc/error.h"
 #include "pdc/math/solvers.h"
+#include "simplify/vertex_properties.h"
 
 namespace pdc::detail {
 namespace {
@@ -38,15 +38,6 @@ constexpr double kNegativeShare = 1e-5;
 constexpr std::array<const char*, 6> kCovarianceNames{"covxx", "covxy", "covxz", "covyy", "covyz", "covzz"};
 
 constexpr double square(double x) { return x * x; }
-
-std::vector<double> numbersOf(const Mesh& mesh, const std::string& name) {
-  const VertexProperty* const property = mesh.property(name);
-  if (property == nullptr) throw Error(fmt::format("the vertices have no property '{}'", name));
-  if (property->components != 1)
-    throw Error(fmt::format("the property '{}' has {} numbers per vertex, not 1", name, property->components));
-  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-                    property->values);
-}
 
 bool isFinite(const SymMat3<double>& m) {
   return std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.xz) && std::isfinite(m.yy) &&

@@ -47,6 +47,16 @@ void addNoiseGrids(const openvdb::FloatGrid& sphere, openvdb::GridPtrVec& grids)
   grids.back()->setTransform(openvdb::math::Transform::createLinearTransform(0.3));
 }
 
+void addScaleGrids(openvdb::GridPtrVec& grids) {
+  auto scale = openvdb::FloatGrid::create(0.1F);
+  scale->setName("scale");
+  scale->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+  scale->fill(openvdb::CoordBBox({0, -8, -8}, {8, 8, 8}), 1.0F);
+  grids.push_back(scale);
+  grids.push_back(openvdb::BoolGrid::create());
+  grids.back()->setName("mask");
+}
+
 }  // namespace
 
 void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
@@ -64,6 +74,7 @@ void writeSphere(const std::filesystem::path& path, const SphereFile& content) {
     spoil(*sphere, content.nanVoxels, content.infiniteVoxels);
     grids.push_back(sphere);
     if (content.noiseGrids) addNoiseGrids(*sphere, grids);
+    if (content.scaleGrids) addScaleGrids(grids);
     if (content.twoGrids) {
       grids.push_back(sphere->deepCopyGrid());
       grids.back()->setName("other");

@@ -13,6 +13,8 @@ struct SphereFile {
   /// Holds further grids: "sigma", 0.02 where the sphere is active and x > 0, else 0; "weight", 1 there; "halved", 1
   /// there where x > 0; "moved", of another transform; "faulty", -1 there.
   bool noiseGrids = false;
+  /// Holds further grids: "scale", with voxels of 0.25, 1 where x > 0, else its background 0.1; "mask", of bools.
+  bool scaleGrids = false;
   bool positiveInside = false;  ///< All values have the other sign; the class stays.
   bool floodFilled = true;      ///< False: all inactive values are the background.
   double offset = 0;            ///< Moves the centre along x, through the grid's transform.

@@ -257,6 +257,27 @@ TEST_F(MeshCommand, FewerFacesWhereTheSurfaceIsSimple) {
                          {"--adaptive", distance, "above 0"});
 }
 
+TEST_F(MeshCommand, AGridSaysHowFineTheFacesAre) {
+  const std::string input = mFolder / "scaled.vdb";
+  writeSphere(input, {.scaleGrids = true});
+  const auto triangles = [&](const Json& report) {
+    return 2 * report["quads"].get<double>() + report["triangles"].get<double>();
+  };
+  const Json whole = contour({input, "--grid", "sphere", "--adaptive", "0.3v"});
+  EXPECT_TRUE(whole["adaptive"]["grid"].is_null());
+  const Json fine = contour({input, "--grid", "sphere", "--adaptive", "0.03v"});
+  const Json report = contour({input, "--grid", "sphere", "--adaptive", "0.3v", "--adaptive-grid", "scale"});
+  EXPECT_EQ(report["adaptive"]["grid"], "scale");
+  EXPECT_NEAR(report["adaptive"]["distance"].get<double>(), 0.03, 1e-7);
+  EXPECT_NE(mOutcome.out.find("farther than 0.03 times 'scale' from the other"), std::string::npos) << mOutcome.out;
+  EXPECT_GT(triangles(report), 2 * triangles(whole));
+  EXPECT_LT(triangles(report), 0.8 * triangles(fine));
+  // Half as many to each side would be those of one distance.
+  const Mesh mesh = readMesh(mOutput);
+  const auto left = std::count_if(mesh.positions.begin(), mesh.positions.end(), [](const Vec3f& p) { return p.x < 0; });
+  EXPECT_GT(left, 3 * static_cast<std::ptrdiff_t>(mesh.positions.size()) / 4);
+}
+
 TEST_F(MeshCommand, QuietSaysNothing) {
   contour({bulletGrid(), "--quiet"});
   EXPECT_EQ(mOutcome.out, "");

@@ -206,6 +206,23 @@ TEST_F(MeshErrors, NoiseGridsThatDoNotFit) {
   expectRefusal({"any.yaml", "--sigma-grid", "a"}, kUsage, {"--sigma-grid", ".vdb inputs only"});
 }
 
+TEST_F(MeshErrors, AdaptiveGridsThatDoNotFit) {
+  const std::string input = mFolder / "scaled.vdb";
+  writeSphere(input, {.noiseGrids = true, .scaleGrids = true});
+  const auto refuse = [&](const std::string& name, int exitCode, const std::vector<std::string>& mentions) {
+    expectRefusal({input, mOutput, "--grid", "sphere", "--adaptive", "0.1v", "--adaptive-grid", name}, exitCode,
+                  mentions);
+  };
+  refuse("none", kFailed, {"scaled.vdb", "none"});
+  refuse("sphere", kFailed, {"--adaptive-grid", "itself"});
+  refuse("mask", kFailed, {"mask", "bool", "float or double"});
+  refuse("faulty", kFailed, {"the adaptive scale at (", " is -"});
+  expectRefusal({input, mOutput, "--grid", "sphere", "--adaptive-grid", "scale"}, kUsage,
+                {"--adaptive-grid", "needs --adaptive"});
+  expectRefusal({"any.yaml", "--adaptive", "0.1", "--adaptive-grid", "a"}, kUsage,
+                {"--adaptive-grid", ".vdb inputs only"});
+}
+
 TEST_F(MeshErrors, PropertiesThatTheFormatLacks) {
   expectRefusal({mBullet, mFolder / "out.stl", "--confidence"}, kUsage, {"--confidence", ".ply outputs only"});
   expectRefusal({mBullet, mFolder / "out.obj", "--rank"}, kUsage, {"--rank", ".ply outputs only"});

@@ -138,6 +138,20 @@ TEST_F(SweepCommand, OtherSweepsMayBeAdaptive) {
   EXPECT_TRUE(sweep({"--iso", "0,0.1", "--adaptive", "0"}, ball)["steps"][0]["adapted_max"].is_null());
 }
 
+TEST_F(SweepCommand, AGridSaysHowFineTheFacesAre) {
+  const std::string input = mFolder / "scaled.vdb", alone = mFolder / "alone.ply";
+  writeSphere(input, {.scaleGrids = true});
+  const Arguments scaled{"--grid", "sphere", "--adaptive-grid", "scale"};
+  Arguments arguments{"--adaptive", "0,0.3v", "--meshes"}, one{"mesh", input, alone, "--sigma-n", "0.05"};
+  arguments.insert(arguments.end(), scaled.begin(), scaled.end());
+  one.insert(one.end(), scaled.begin(), scaled.end());
+  expectRefusal({input, mOut, "--grid", "sphere", "--adaptive-grid", "scale"}, 2, {"--adaptive-grid", "--adaptive"});
+  (void)sweep(arguments, input);
+  one.insert(one.end(), {"--adaptive", "0.3v"});
+  ASSERT_EQ(runPdc(one).exitCode, 0);
+  EXPECT_EQ(readFile(mOut + "/adaptive_0.3.ply"), readFile(alone));
+}
+
 TEST_F(SweepCommand, StepsWithoutSurfaceAreBlankButNotAllMayBe) {
   EXPECT_EQ(sweep({"--iso=0,-5"}, mScene)["steps"][1]["faces"], 0);
   std::filesystem::remove_all(mOut);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 
+#include "pdc/error.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"
@@ -109,8 +112,97 @@ TEST(AdaptiveContour, BringsPropertiesAndNormalsAlong) {
   EXPECT_EQ(mesh.values<std::uint8_t>("rank").size(), mesh.positions.size());
 }
 
+/// A tenth where x is below 0.
+double tenthOnTheLeft(const Vec3d& p) { return p.x < 0 ? 0.1 : 1; }
+
+std::size_t trianglesOf(const Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
+
+/// Those faces of a mesh all of whose corners are wanted.
+template <typename IsWanted>
+Mesh partOf(const Mesh& mesh, const IsWanted& isWanted) {
+  Mesh part;
+  part.positions = mesh.positions;
+  const auto all = [&](const auto& face) {
+    return std::all_of(face.begin(), face.end(), [&](std::uint32_t v) { return isWanted(mesh.positions[v]); });
+  };
+  std::copy_if(mesh.quads.begin(), mesh.quads.end(), std::back_inserter(part.quads), all);
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(part.triangles), all);
+  return part;
+}
+
+/// The largest distance of a point of a surface to another.
+double farthest(const Mesh& from, const Mesh& to) {
+  return compareMeshes(from, to, {.samples = 100'000}).toReference.largest;
+}
+
+TEST(AdaptiveContour, StaysWithinTheDistanceThatEachPlaceHas) {
+  const FieldPtr field = caseOf(0).field;
+  constexpr double kDistance = 0.3 * kVoxel, kFine = 0.1 * kDistance, kRounding = 1 + 1e-5;
+  const Mesh full = contourOf(field, {});
+  const Mesh mesh = contourOf(field, {.adaptive = kDistance, .adaptiveScale = tenthOnTheLeft});
+  const auto left = [](const Vec3f& p) { return p.x < 0; };
+  // The nearest of the full mesh may lie on the other side of the border if it is as near as it may be there.
+  const auto farLeft = [](const Vec3f& p) { return static_cast<double>(p.x) < -kDistance; };
+  EXPECT_LE(farthest(partOf(full, left), mesh), kFine * kRounding);
+  EXPECT_LE(farthest(partOf(mesh, farLeft), full), kFine * kRounding);
+  EXPECT_LE(farthest(full, mesh), kDistance * kRounding);
+  EXPECT_LE(farthest(mesh, full), kDistance * kRounding);
+  EXPECT_GT(farthest(mesh, full), 0.9 * kDistance) << "the other half has room";
+  const Mesh fine = contourOf(field, {.adaptive = kFine}), coarse = contourOf(field, {.adaptive = kDistance});
+  EXPECT_LT(trianglesOf(mesh), 0.7 * static_cast<double>(trianglesOf(fine)));
+  EXPECT_GT(trianglesOf(mesh), trianglesOf(coarse));
+  EXPECT_EQ(selfIntersections(mesh).pairs.size(), 0u);
+  EXPECT_TRUE(mesh.properties.empty());
+}
+
+TEST(AdaptiveContour, LeavesWhatHasNoDistanceAsItIs) {
+  const FieldPtr field = caseOf(3).field;
+  const Mesh full = contourOf(field, {});
+  const auto scale = [](const Vec3d& p) { return p.x < 0 ? 0.0 : 1.0; };
+  const Mesh mesh = contourOf(field, {.adaptive = 0.3 * kVoxel, .adaptiveScale = scale});
+  const auto left = [](const Vec3f& p) { return p.x < 0; };
+  EXPECT_EQ(trianglesOf(partOf(mesh, left)), trianglesOf(partOf(full, left)));
+  EXPECT_LT(trianglesOf(mesh), 0.7 * static_cast<double>(trianglesOf(full)));
+}
+
+TEST(AdaptiveContour, AScaleOfOneChangesNothing) {
+  const FieldPtr field = caseOf(2).field;
+  const Mesh plain = contourOf(field, {.adaptive = 0.2 * kVoxel});
+  const Mesh scaled = contourOf(field, {.adaptive = 0.4 * kVoxel, .adaptiveScale = [](const Vec3d&) { return 0.5; }});
+  EXPECT_EQ(plain.positions, scaled.positions);
+  EXPECT_EQ(plain.triangles, scaled.triangles);
+}
+
+TEST(AdaptiveContour, AsksForScalesInWorldSpace) {
+  const Vec3d far{1e6, 0, 0};
+  const Box box{far + kBox.lo, far + kBox.hi};
+  const auto mesh = [&](const std::function<double(const Vec3d&)>& scale) {
+    return contour(FieldSource(translate(sphere({}, 0.8), far), {.box = box, .voxelSize = kVoxel}),
+                   {.adaptive = 0.3 * kVoxel, .adaptiveScale = scale, .origin = std::nullopt});
+  };
+  std::atomic<std::size_t> outside{0};
+  const Mesh made = mesh([&](const Vec3d& p) {
+    outside += length(p - far) < 0.7 || length(p - far) > 0.9;
+    return 1.0;
+  });
+  ASSERT_NE(made.origin, Vec3d{});
+  EXPECT_EQ(outside, 0u);
+}
+
+TEST(AdaptiveContour, RefusesScalesThatAreNone) {
+  for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
+    const auto scale = [bad](const Vec3d& p) { return p.z > 0.7 ? bad : 1; };
+    try {
+      (void)contourOf(sphere({}, 0.8), {.adaptive = 0.1 * kVoxel, .adaptiveScale = scale});
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("the adaptive scale at ("), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(AdaptiveContour, IsTheSameForAnyNumberOfThreads) {
-  ContourOptions options{.adaptive = 0.1 * kVoxel, .threads = 1};
+  ContourOptions options{.adaptive = 0.1 * kVoxel, .adaptiveScale = tenthOnTheLeft, .threads = 1};
   const Mesh one = contourOf(caseOf(4).field, options);
   for (const int threads : {3, 8}) {
     options.threads = threads;

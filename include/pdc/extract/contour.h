@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "pdc/math/quadric.h"
@@ -38,6 +39,12 @@ struct ContourOptions {
   /// those of the faces. Takes a hundred times as long as contouring and more, and some 600 bytes per vertex of the
   /// full mesh. Excludes `quadrics`.
   std::optional<double> adaptive{};
+  /// By what `adaptive` is multiplied at a point in world space, 0 or more and finite: 1 keeps it, 0.1 leaves a tenth.
+  /// Asked at the vertices of the full mesh, by several threads at a time; each of these has the least that it and its
+  /// neighbours got, each triangle the least of its corners. No point of a triangle of the full mesh is farther from
+  /// the result than the distance that it has then, and each point of the result has one of the full mesh as near as
+  /// the distance there. 0 counts as a millionth. Not used without `adaptive`.
+  std::function<double(const Vec3d&)> adaptiveScale{};
   bool normals = false;  ///< Also a normal per vertex: the mean of its crossings' normals.
   /// Also the confidence of each vertex as the mesh's property "confidence", floats from 0 to 1: 1 / (1 + s /
   /// kHalfConfidence), where s estimates the standard deviation of the vertex's place in voxels: s² is the variance
@@ -123,7 +130,8 @@ struct ContourReport {
 ///
 /// \throws std::invalid_argument for a negative or NaN sigmaNormal, an origin that is not finite or negative threads,
 /// for quadrics without a report to put them into, and for a source whose blocks are not sorted or not closed under
-/// continuation; Error if the mesh would have more than 2^32 vertices, or is not expected to fit into maxMemory, before
+/// continuation; Error for a scale that is negative or not finite, naming the point, if the mesh would have more than
+/// 2^32 vertices, or is not expected to fit into maxMemory, before
 /// any is made (forecastContour() tells even before that); Cancelled; whatever the source throws.
 [[nodiscard]] Mesh contour(const HermiteSource& source, const ContourOptions& options = {},
                            ContourReport* report = nullptr, const Monitor& monitor = {});

@@ -34,6 +34,10 @@ struct DecimateOptions {
   /// a ratio there are as few triangles as come out then. One of the three must be set. Takes ten times as long and
   /// more.
   std::optional<MeshLength> error{};
+  /// The property of the mesh by which `error` is multiplied, 0 or more at each vertex and finite; none if empty. A
+  /// triangle given has the least of its corners' bounds: no point of it is farther than that from the result, and each
+  /// point of the result has one of the surface given as near as the bound there. 0 counts as a millionth.
+  std::string errorScale{};
   /// Vertices within this distance of each other, in world units, 0 or more, become one before anything else: see
   /// weldVertices(). Else faces are neighbours only where they name the same vertices.
   std::optional<double> weld{};

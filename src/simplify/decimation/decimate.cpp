@@ -34,6 +34,7 @@ void check(const DecimateOptions& o) {
   };
   require(o.faces || o.ratio || o.error, "neither a number of faces nor a ratio nor an error is set");
   require(isLength(o.error), "the error is not above 0 and finite");
+  require(o.errorScale.empty() || o.error, "a scale of the error is named without an error");
   require(!o.ratio || (*o.ratio > 0 && *o.ratio <= 1), "the ratio is not above 0 and at most 1");
   require(!o.sigmaNormal || (*o.sigmaNormal >= 0 && std::isfinite(*o.sigmaNormal)), "sigma_n is not 0 or more");
   require(!o.sigmaPosition || (*o.sigmaPosition >= 0 && std::isfinite(*o.sigmaPosition)), "sigma_p is not 0 or more");
@@ -202,7 +203,9 @@ Mesh collapseEdges(detail::DecimatedSurface& surface, const Mesh& mesh, const De
                    DecimateReport& facts, const Monitor& monitor) {
   const detail::DecimationRule rule{
       targetOf(options, facts.facesBefore),
-      options.error ? std::optional(inWorld(*options.error, facts.meanEdge)) : std::nullopt,
+      options.error ? std::optional(detail::errorLimits(mesh, surface.faces, inWorld(*options.error, facts.meanEdge),
+                                                        options.errorScale))
+                    : std::nullopt,
       {options.quadric, facts.sigmaNormal, facts.sigmaPosition, options.boundaryWeight},
       facts.memory,
       !options.sigmaNormal,
@@ -230,7 +233,7 @@ Mesh collapseEdges(detail::DecimatedSurface& surface, const Mesh& mesh, const De
   Mesh result = meshOf(surface, properties, mesh);
   facts.facesAfter = result.triangles.size();
   facts.verticesAfter = result.positions.size();
-  facts.error = rule.error.value_or(0);
+  facts.error = rule.error ? rule.error->distance() : 0;
   facts.end = facts.facesAfter <= rule.targetFaces ? DecimateEnd::kReached
               : facts.refusedErrors > 0            ? DecimateEnd::kError
                                                    : DecimateEnd::kNoCollapseLeft;

@@ -10,6 +10,7 @@
 #include "simplify/decimation/new_intersections.h"
 #include "simplify/edge_collapse.h"
 #include "simplify/error_bound/error_bound.h"
+#include "simplify/error_bound/error_limits.h"
 #include "simplify/error_bound/tracked_error.h"
 #include "simplify/vertex_properties.h"
 #include "simplify/vertex_quadrics.h"
@@ -20,7 +21,7 @@ namespace pdc::detail {
 /// How it is to be done.
 struct DecimationRule {
   std::size_t targetFaces;
-  std::optional<double> error;  ///< In world units: see ErrorBound.
+  std::optional<ErrorLimits> error;  ///< See ErrorBound.
   QuadricRule quadrics;
   double memory;
   bool sigmaNormalOfVertices, memoryOfVertices;  ///< What is known of a vertex's noise chooses, where it is known.

@@ -53,9 +53,10 @@ NearestTriangle Envelope::findNear(const Vec3d& p, std::uint32_t guess) const {
   return mNearest.findBelow(mDistance * mDistance, p, guess);
 }
 
-bool Envelope::contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used) const {
+bool Envelope::contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used,
+                        double distance) const {
   Walk walk(*this, used);
-  return Coverage<Walk>(walk, mDistance).covers(triangle, near);
+  return Coverage<Walk>(walk, distance).covers(triangle, near);
 }
 
 }  // namespace pdc::detail

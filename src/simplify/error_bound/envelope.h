@@ -27,7 +27,12 @@ class Envelope {
   /// Whether all points of a triangle are inside; see Coverage. \param near a triangle of the surface near to it, or
   /// kNone; only saves time. \param used gets the triangles of the surface that it is near to, as far as they are
   /// needed, if it is inside.
-  bool contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used = nullptr) const;
+  bool contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used = nullptr) const {
+    return contains(triangle, near, used, mDistance);
+  }
+  /// Likewise for a smaller distance than the envelope's own.
+  bool contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used,
+                double distance) const;
 
  private:
   class Walk;

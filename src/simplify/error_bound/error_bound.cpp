@@ -79,11 +79,12 @@ class ErrorBound::NearFaces {
   std::vector<std::uint8_t> mUsed;
 };
 
-ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance,
+ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, const ErrorLimits& limits,
                        const Monitor& monitor)
     : mSurface(surface),
+      mLimits(limits),
       mGiven(meshOf({surface.given.begin(), surface.given.end()}, given)),
-      mEnvelope(mGiven, distance),
+      mEnvelope(mGiven, limits.farthest()),
       mFaces(surface.faces),
       mFaceGiven(surface.faces.size()),
       mBelow(surface.positions.size(), kNone),
@@ -105,7 +106,8 @@ void ErrorBound::findLinks(const Monitor& monitor) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size(), 256), [&](const auto& r) {
       if (monitor.stopped()) return;
       for (std::size_t t = r.begin(); t < r.end(); ++t)
-        about.contains(trianglePoints(mGiven.positions, mGiven.triangles[t]), kNone, &near[t]);
+        about.contains(trianglePoints(mGiven.positions, mGiven.triangles[t]), kNone, &near[t],
+                       mLimits.of(static_cast<std::uint32_t>(t)));
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mPlaces.size(), 256), [&](const auto& r) {
       for (std::size_t v = r.begin(); v < r.end(); ++v)
@@ -226,10 +228,29 @@ bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& chang
   faces.forget();
   const TrianglePoints corners = trianglePoints(mGiven.positions, mGiven.triangles[covered.triangle]);
   const auto near = guess < size ? static_cast<std::uint32_t>(guess) : kNone;
-  const bool covers = Coverage<NearFaces>(faces, mEnvelope.distance()).covers(corners, near);
+  const bool covers = Coverage<NearFaces>(faces, mLimits.of(covered.triangle)).covers(corners, near);
   covered.faces = faces.used();
   faces.shrink(size);
   return covers;
+}
+
+/// Whether new faces are near to the surface given: as near as each triangle asks that they or those before them are
+/// near to. \param below a triangle given that is near to them.
+bool ErrorBound::areNear(const NearFaces& faces, const Faces& changed, std::uint32_t below) const {
+  double limit = mLimits.farthest();
+  if (!mLimits.uniform()) limit = mLimits.least(trianglesAt(changed));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    Faces near;
+    double tried = 0, own = limit;
+    do {
+      tried = own;
+      near.clear();
+      if (!mEnvelope.contains(faces.corners(i), below, mLimits.uniform() ? nullptr : &near, tried)) return false;
+      // What is near within a wide limit may ask for a narrower one.
+      own = mLimits.least(near);
+    } while (own < tried);
+  }
+  return true;
 }
 
 std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars, const ChosenCollapse& collapse,
@@ -238,9 +259,8 @@ std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars,
   Change change{collapse, mEnvelope.nearest(place, mBelow[collapse.a]), {}};
   if (change.below == kNone) return std::nullopt;
   NearFaces faces = newFaces(stars, collapse);
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    if (!mEnvelope.contains(faces.corners(i), change.below)) return std::nullopt;
   const Faces changed = changedFaces(stars, collapse);
+  if (!areNear(faces, changed, change.below)) return std::nullopt;
   for (const std::uint32_t t : trianglesAt(changed)) {
     // One face may stand for all triangles given.
     if (monitor.stopped()) return std::nullopt;

@@ -10,20 +10,22 @@
 #include "simplify/decimated_surface.h"
 #include "simplify/edge_collapse.h"
 #include "simplify/error_bound/envelope.h"
+#include "simplify/error_bound/error_limits.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {
 
-/// Keeps a decimated surface and the one given within a distance of each other, all points of either. Decided on
-/// positions as the result will have them.
+/// Keeps a decimated surface and the one given within limits of each other, all points of either. Decided on positions
+/// as the result will have them.
 ///
 /// For the faces left that is asked of the surface given as it is. For each triangle given it is known which faces left
 /// are near to it, all of them together to all of it; where one of them changes others are found.
 class ErrorBound {
  public:
-  /// \param given the faces given. \param surface within the distance of them; it has to live as long.
-  /// \param distance in world units. Runs in parallel. \throws Cancelled.
-  ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, double distance, const Monitor& monitor);
+  /// \param given the faces given. \param surface within the limits of them; it has to live as long.
+  /// \param limits of the faces given; they have to live as long. Runs in parallel. \throws Cancelled.
+  ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, const ErrorLimits& limits,
+             const Monitor& monitor);
 
   /// Takes out collapses, which do not touch each other, that would break the bound if all of them were done, and makes
   /// ready for the others. Runs in parallel; the result does not depend on the number of threads.
@@ -66,6 +68,7 @@ class ErrorBound {
   [[nodiscard]] NearFaces newFaces(const VertexStars& stars, const ChosenCollapse& collapse) const;
   [[nodiscard]] std::vector<std::uint32_t> trianglesAt(const Faces& faces) const;
   [[nodiscard]] Faces facesOf(std::uint32_t triangle) const;
+  [[nodiscard]] bool areNear(const NearFaces& faces, const Faces& changed, std::uint32_t below) const;
   [[nodiscard]] bool cover(Covered& covered, const Faces& before, const Faces& changed, NearFaces& faces) const;
   void putInto(const ChosenCollapse& collapse, const Vec3f& a, const Vec3f& b);
   void link(const Covered& covered);
@@ -76,6 +79,7 @@ class ErrorBound {
   [[nodiscard]] Vec3f placeOf(const ChosenCollapse& c) const { return mSurface.written(c.a, c.to.place); }
 
   const DecimatedSurface& mSurface;
+  const ErrorLimits& mLimits;
   Mesh mGiven;
   Envelope mEnvelope;
   Buffer<Vec3f> mPlaces;              ///< By vertex, in world space, as if everything it is ready for was done.

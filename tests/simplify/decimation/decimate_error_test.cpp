@@ -10,6 +10,7 @@
 #include <string>
 
 #include "parallel/with_threads.h"
+#include "pdc/error.h"
 #include "pdc/mesh/mesh_comparison.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
@@ -150,6 +151,49 @@ TEST(DecimateErrorBound, HoldsTogetherWithSoundness) {
   EXPECT_EQ(selfIntersections(fewer).pairs.size(), 0u);
   EXPECT_GT(report.refusedIntersections, 0u);
   EXPECT_LE(measured(fewer, balls), error.value * (1 + 1e-5));
+}
+
+TEST(DecimateErrorBound, IsMultipliedByWhatVerticesHave) {
+  Mesh ball = test::sphere(24);
+  Buffer<float> scale;
+  for (const Vec3f& p : ball.positions) scale.push_back(p.z < 0 ? 0.05F : 1.0F);
+  ball.properties.push_back({"scale", 1, scale});
+  const double error = 0.05;
+  for (const bool sound : {false, true}) {
+    DecimateOptions options{.error = error, .sound = sound};
+    const std::size_t coarse = decimate(ball, options).triangles.size();
+    options.errorScale = "scale";
+    const Mesh fewer = decimate(ball, options);
+    Mesh lower = ball;
+    lower.triangles.clear();
+    for (const Triangle& t : ball.triangles)
+      if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return scale[v] < 1; })) lower.triangles.push_back(t);
+    EXPECT_LE(compareMeshes(lower, fewer, {.samples = 100'000}).toReference.largest, 0.05 * error * (1 + 1e-5));
+    EXPECT_LE(measured(fewer, ball), error * (1 + 1e-5));
+    EXPECT_GT(fewer.triangles.size(), 2 * coarse);
+    EXPECT_EQ(fewer.values<float>("scale").size(), fewer.positions.size());
+  }
+}
+
+TEST(DecimateErrorBound, RefusesScalesThatAreNone) {
+  Mesh ball = test::sphere(4);
+  Buffer<double> scale(ball.positions.size(), 1);
+  const auto refusal = [&](double value) {
+    scale[7] = value;
+    ball.properties = {{"scale", 1, scale}, {"vector", 2, Buffer<float>(2 * scale.size(), 1)}};
+    try {
+      (void)decimate(ball, {.error = 0.1, .errorScale = "scale"});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(refusal(2), "none");
+  for (const double bad : {-0.5, std::nan(""), HUGE_VAL})
+    EXPECT_NE(refusal(bad).find("the property 'scale' of vertex 7 is "), std::string::npos) << refusal(bad);
+  EXPECT_THROW((void)decimate(ball, {.error = 0.1, .errorScale = "vector"}), Error);
+  EXPECT_THROW((void)decimate(ball, {.error = 0.1, .errorScale = "missing"}), Error);
+  EXPECT_THROW((void)decimate(ball, {.faces = 8, .errorScale = "scale"}), std::invalid_argument);
 }
 
 TEST(DecimateErrorBound, IsTheSameForAnyNumberOfThreadsAndUnit) {
