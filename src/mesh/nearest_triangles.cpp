@@ -10,8 +10,7 @@
 namespace pdc::detail {
 namespace {
 
-TrianglePoints points(const Mesh& mesh, std::uint32_t t) {
-  const TriangleCorners c = corners(mesh, triangle(mesh, t));
+TrianglePoints points(const TriangleCorners& c) {
   return {vecCast<double>(c[0]), vecCast<double>(c[1]), vecCast<double>(c[2])};
 }
 
@@ -59,8 +58,7 @@ NearestTriangle NearestTriangles::findBelow(double bound, const Vec3d& p, std::u
   const auto visit = [&](std::uint32_t t) {
     const TriangleCorners own = corners(mMesh, triangle(mMesh, t));
     if (!(boxOf(own).squaredDistance(p) < nearest.squared)) return;
-    const double squared =
-        squaredToTriangle(p, {vecCast<double>(own[0]), vecCast<double>(own[1]), vecCast<double>(own[2])});
+    const double squared = squaredToTriangle(p, points(own));
     if (squared < nearest.squared) nearest = {t, squared};
   };
   if (guess != NearestTriangle::kNone) visit(guess);
@@ -72,7 +70,7 @@ NearestTriangle NearestTriangles::find(const Vec3d& p, const Vec3d& normal, std:
   NearestTriangle nearest;
   double cosine = -3, nearer = 0, reach = nearest.squared;  // Squares, within which distances differ by rounding.
   const auto visit = [&](std::uint32_t t) {
-    const double squared = squaredToTriangle(p, points(mMesh, t));
+    const double squared = squaredToTriangle(p, points(corners(mMesh, triangle(mMesh, t))));
     if (!(squared < reach)) return;
     const double itsCosine = cosineTo(normal, corners(mMesh, triangle(mMesh, t)));
     if (squared < nearer || itsCosine > cosine || nearest.number == NearestTriangle::kNone) {

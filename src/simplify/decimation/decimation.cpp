@@ -314,12 +314,13 @@ bool Decimation::lookCloser(const Monitor& monitor) {
 /// Takes out collapses after which the surface would not be what it has to be.
 void Decimation::takeOutRefused(std::vector<ChosenCollapse>& chosen, const Monitor& monitor) {
   if (mTracked) mErrorRefusals += refuse(mTracked->takeOutFar(mStars, chosen));
+  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen, monitor));
   if (mIntersections) {
     const std::vector<ChosenCollapse> all = chosen, impossible = mIntersections->takeOut(mStars, chosen, monitor);
     // Where all only wait for each other none would ever go on.
     mIntersectionRefusals += refuse(chosen.empty() ? all : impossible);
   }
-  if (mBound) mErrorRefusals += refuse(mBound->takeOutFar(mStars, chosen, monitor));
+  if (mBound) mErrorRefusals += refuse(mBound->join(mStars, chosen));
 }
 
 /// Their stars have no face in common, so that they do not see each other.

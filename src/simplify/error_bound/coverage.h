@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "mesh/point_triangle.h"
@@ -30,6 +31,18 @@ struct Prism {
   /// How far a point is inside the plane through the edge after corner k.
   [[nodiscard]] double depth(int k, const Vec3d& p) const { return dot(inward[k], p - corners[k]); }
   [[nodiscard]] double height(const Vec3d& p) const { return dot(normal, p - corners[0]); }
+
+  /// Whether all of a convex polygon is within a distance of the triangle.
+  [[nodiscard]] bool isNear(std::span<const Vec3d> polygon, double distance) const {
+    for (const Vec3d& p : polygon) {
+      if (std::abs(height(p)) > distance) return false;
+      const double least = std::min({depth(0, p), depth(1, p), depth(2, p)});
+      if (flat && least >= 0) continue;
+      if (least < -distance && flat) return false;
+      if (!(squaredToTriangle(p, corners) <= distance * distance)) return false;
+    }
+    return true;
+  }
 
   TrianglePoints corners;
   Vec3d normal;
@@ -129,7 +142,7 @@ class Coverage {
   /// Takes away what is above or below a triangle of the surface and within the distance of it.
   /// \returns whether there was any; if not, nothing has changed.
   bool reduce(const Piece& piece, std::uint32_t t, const Prism& prism) {
-    if (isNear(prism, piece)) {
+    if (prism.isNear({piece.corners.data(), static_cast<std::size_t>(piece.size)}, mDistance)) {
       mSurface.use(t);
       return true;
     }
@@ -146,19 +159,6 @@ class Coverage {
     else
       mRest.resize(before);
     return any;
-  }
-
-  /// Whether all of a piece is within the distance of one triangle.
-  [[nodiscard]] bool isNear(const Prism& prism, const Piece& piece) const {
-    for (int i = 0; i < piece.size; ++i) {
-      const Vec3d& p = piece.corners[i];
-      if (std::abs(prism.height(p)) > mDistance) return false;
-      const double depth = std::min({prism.depth(0, p), prism.depth(1, p), prism.depth(2, p)});
-      if (prism.flat && depth >= 0) continue;
-      if (depth < -mDistance && prism.flat) return false;
-      if (!(squaredToTriangle(p, prism.corners) <= mDistance * mDistance)) return false;
-    }
-    return true;
   }
 
   /// Leaves of a piece what is on the positive side of a plane, and puts what is on the other side to the rest.

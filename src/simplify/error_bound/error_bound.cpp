@@ -27,7 +27,7 @@ void forEachChangedFace(const VertexStars& stars, const ChosenCollapse& collapse
     if (c.next != collapse.a && c.previous != collapse.a) visit(c);
 }
 
-bool contains(const std::vector<std::uint32_t>& all, std::uint32_t one) {
+bool contains(std::span<const std::uint32_t> all, std::uint32_t one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
@@ -53,11 +53,15 @@ class ErrorBound::NearFaces {
   }
 
   void forget() { std::fill(mUsed.begin(), mUsed.end(), 0); }
-  [[nodiscard]] Faces used() const {
-    Faces faces;
+  void appendUsed(Faces& faces) const {
     for (std::size_t i = 0; i < mNumbers.size(); ++i)
       if (mUsed[i] != 0) faces.push_back(mNumbers[i]);
-    return faces;
+  }
+  /// One to all of which a triangle is near, or kNone.
+  [[nodiscard]] std::uint32_t oneNearTo(const TrianglePoints& triangle, double distance) const {
+    for (std::size_t i = 0; i < mNumbers.size(); ++i)
+      if (mPrisms[i].isNear(triangle, distance)) return mNumbers[i];
+    return kNone;
   }
   [[nodiscard]] const TrianglePoints& corners(std::size_t i) const { return mPrisms[i].corners; }
 
@@ -89,7 +93,8 @@ ErrorBound::ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& su
       mFaceGiven(surface.faces.size()),
       mBelow(surface.positions.size(), kNone),
       mFirstOfFace(surface.faces.size(), kNone),
-      mFirstOfTriangle(given.size(), kNone) {
+      mFirstOfTriangle(given.size(), kNone),
+      mJoinedAt(given.size(), kNone) {
   std::iota(mFaceGiven.begin(), mFaceGiven.end(), 0U);
   findLinks(monitor);
 }
@@ -116,7 +121,7 @@ void ErrorBound::findLinks(const Monitor& monitor) {
   }
   monitor.throwIfStopped();
   mLinks.reserve(near.size() * 2);
-  for (std::uint32_t t = 0; t < near.size(); ++t) link({t, std::move(near[t])});
+  for (std::uint32_t t = 0; t < near.size(); ++t) link(t, near[t]);
 }
 
 std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses,
@@ -134,49 +139,56 @@ std::vector<ChosenCollapse> ErrorBound::takeOutFar(const VertexStars& stars, std
     if (found[i]) mChanges.push_back(std::move(*found[i]));
   }
   collapses = std::move(near);
-  const std::vector<ChosenCollapse> more = joinAll(stars, collapses);
-  out.insert(out.end(), more.begin(), more.end());
   return out;
 }
 
-/// Takes out the changes that do not hold beside those before them.
-std::vector<ChosenCollapse> ErrorBound::joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
-  std::vector<ChosenCollapse> out;
+std::vector<ChosenCollapse> ErrorBound::join(const VertexStars& stars, std::vector<ChosenCollapse>& collapses) {
+  std::vector<ChosenCollapse> out, kept;
   std::vector<Change> joined;
-  mJoined.clear();
-  collapses.clear();
-  for (Change& c : mChanges) {
-    if (!join(stars, c)) {
-      out.push_back(c.collapse);
+  auto next = mChanges.begin();
+  for (const ChosenCollapse& c : collapses) {
+    while (next->collapse.a != c.a || next->collapse.b != c.b) ++next;
+    if (!join(stars, *next)) {
+      out.push_back(c);
       continue;
     }
-    const Vec3f place = placeOf(c.collapse);
-    putInto(c.collapse, place, place);
-    collapses.push_back(c.collapse);
-    joined.push_back(std::move(c));
+    mPlaces[c.a] = mPlaces[c.b] = placeOf(c);
+    kept.push_back(c);
+    joined.push_back(std::move(*next));
   }
   mChanges = std::move(joined);
+  collapses = std::move(kept);
   return out;
 }
 
 /// Joins a change to those before it. \returns whether it holds beside them; if not, nothing has changed.
-bool ErrorBound::join(const VertexStars& stars, Change& change) {
-  const bool alone = std::none_of(change.covered.begin(), change.covered.end(),
-                                  [&](const Covered& c) { return mJoined.contains(c.triangle); });
-  std::vector<Covered> covered;
-  if (!alone) {
+bool ErrorBound::join(const VertexStars& stars, const Change& change) {
+  const auto isJoined = [&](const Coverings::Triangle& t) { return mJoinedAt[t.number] != kNone; };
+  Coverings both;
+  if (std::any_of(change.covered.triangles.begin(), change.covered.triangles.end(), isJoined)) {
     const Faces changed = changedFaces(stars, change.collapse);
     NearFaces faces = newFaces(stars, change.collapse);
-    for (const Covered& c : change.covered) {
-      const auto before = mJoined.find(c.triangle);
-      if (before == mJoined.end()) continue;
-      covered.push_back({c.triangle, {}});
-      if (!cover(covered.back(), before->second, changed, faces)) return false;
-    }
+    for (const Coverings::Triangle& t : change.covered.triangles)
+      if (isJoined(t) && !cover(t.number, mJoined.of(mJoined.triangles[mJoinedAt[t.number]]), changed, faces, both))
+        return false;
   }
-  for (const Covered& c : change.covered) mJoined.try_emplace(c.triangle, c.faces);
-  for (Covered& c : covered) mJoined[c.triangle] = std::move(c.faces);
+  setJoined(change.covered);
+  setJoined(both);
   return true;
+}
+
+/// What is set later counts.
+void ErrorBound::setJoined(const Coverings& coverings) {
+  for (const Coverings::Triangle& t : coverings.triangles) {
+    if (mJoinedAt[t.number] == kNone) {
+      mJoinedAt[t.number] = static_cast<std::uint32_t>(mJoined.triangles.size());
+      mJoined.triangles.emplace_back();
+    }
+    const auto begin = static_cast<std::uint32_t>(mJoined.faces.size());
+    const std::span<const std::uint32_t> faces = coverings.of(t);
+    mJoined.faces.insert(mJoined.faces.end(), faces.begin(), faces.end());
+    mJoined.triangles[mJoinedAt[t.number]] = {t.number, begin, static_cast<std::uint32_t>(mJoined.faces.size())};
+  }
 }
 
 /// The faces at an edge's ends, by the numbers they were given with.
@@ -208,15 +220,27 @@ std::vector<std::uint32_t> ErrorBound::trianglesAt(const Faces& faces) const {
   return triangles;
 }
 
-ErrorBound::Faces ErrorBound::facesOf(std::uint32_t triangle) const {
-  Faces faces;
+void ErrorBound::facesOf(std::uint32_t triangle, Faces& faces) const {
+  faces.clear();
   for (std::uint32_t i = mFirstOfTriangle[triangle]; i != kNone; i = mLinks[i].nextOfTriangle)
     faces.push_back(mLinks[i].face);
-  return faces;
 }
 
 /// Finds faces that are near to a triangle given, of the new ones and of those before that do not change.
-bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& changed, NearFaces& faces) const {
+bool ErrorBound::cover(std::uint32_t triangle, std::span<const std::uint32_t> before, const Faces& changed,
+                       NearFaces& faces, Coverings& out) const {
+  const TrianglePoints corners = trianglePoints(mGiven.positions, mGiven.triangles[triangle]);
+  const double limit = mLimits.of(triangle);
+  const auto begin = static_cast<std::uint32_t>(out.faces.size());
+  const auto add = [&] {
+    out.triangles.push_back({triangle, begin, static_cast<std::uint32_t>(out.faces.size())});
+    return true;
+  };
+  // Most are near to one.
+  if (const std::uint32_t one = faces.oneNearTo(corners, limit); one != kNone) {
+    out.faces.push_back(one);
+    return add();
+  }
   const std::size_t size = faces.size();
   std::size_t guess = size;
   for (const std::uint32_t f : before) {
@@ -226,12 +250,11 @@ bool ErrorBound::cover(Covered& covered, const Faces& before, const Faces& chang
       guess = faces.indexOf(f);
   }
   faces.forget();
-  const TrianglePoints corners = trianglePoints(mGiven.positions, mGiven.triangles[covered.triangle]);
   const auto near = guess < size ? static_cast<std::uint32_t>(guess) : kNone;
-  const bool covers = Coverage<NearFaces>(faces, mLimits.of(covered.triangle)).covers(corners, near);
-  covered.faces = faces.used();
+  const bool covers = Coverage<NearFaces>(faces, limit).covers(corners, near);
+  if (covers) faces.appendUsed(out.faces);
   faces.shrink(size);
-  return covers;
+  return covers && add();
 }
 
 /// Whether new faces are near to the surface given: as near as each triangle asks that they or those before them are
@@ -261,22 +284,18 @@ std::optional<ErrorBound::Change> ErrorBound::changeOf(const VertexStars& stars,
   NearFaces faces = newFaces(stars, collapse);
   const Faces changed = changedFaces(stars, collapse);
   if (!areNear(faces, changed, change.below)) return std::nullopt;
+  Faces before;
   for (const std::uint32_t t : trianglesAt(changed)) {
     // One face may stand for all triangles given.
     if (monitor.stopped()) return std::nullopt;
-    change.covered.push_back({t, {}});
-    if (!cover(change.covered.back(), facesOf(t), changed, faces)) return std::nullopt;
+    facesOf(t, before);
+    if (!cover(t, before, changed, faces, change.covered)) return std::nullopt;
   }
   return change;
 }
 
-void ErrorBound::putInto(const ChosenCollapse& collapse, const Vec3f& a, const Vec3f& b) {
-  mPlaces[collapse.a] = a;
-  mPlaces[collapse.b] = b;
-}
-
 void ErrorBound::accept(const VertexStars& stars) {
-  for (const auto& [triangle, faces] : mJoined) unlink(triangle);
+  for (const Coverings::Triangle& t : mJoined.triangles) unlink(t.number);
   for (const Change& c : mChanges) {
     mBelow[c.collapse.a] = c.below;
     for (const std::uint32_t f : changedFaces(stars, c.collapse)) {
@@ -285,14 +304,17 @@ void ErrorBound::accept(const VertexStars& stars) {
       for (std::uint32_t& v : mFaces[f]) v = v == c.collapse.b ? c.collapse.a : v;
     }
   }
-  for (const auto& [triangle, faces] : mJoined) link({triangle, faces});
+  for (const Coverings::Triangle& t : mJoined.triangles) {
+    link(t.number, mJoined.of(t));
+    mJoinedAt[t.number] = kNone;
+  }
   mChanges.clear();
-  mJoined.clear();
+  mJoined = {};
 }
 
-void ErrorBound::link(const Covered& covered) {
-  for (const std::uint32_t f : covered.faces) {
-    const Link link{covered.triangle, f, mFirstOfTriangle[covered.triangle], mFirstOfFace[f]};
+void ErrorBound::link(std::uint32_t triangle, std::span<const std::uint32_t> faces) {
+  for (const std::uint32_t f : faces) {
+    const Link link{triangle, f, mFirstOfTriangle[triangle], mFirstOfFace[f]};
     std::uint32_t i = static_cast<std::uint32_t>(mLinks.size());
     if (mFree.empty()) {
       mLinks.push_back(link);
@@ -301,7 +323,7 @@ void ErrorBound::link(const Covered& covered) {
       mFree.pop_back();
       mLinks[i] = link;
     }
-    mFirstOfTriangle[covered.triangle] = mFirstOfFace[f] = i;
+    mFirstOfTriangle[triangle] = mFirstOfFace[f] = i;
   }
 }
 

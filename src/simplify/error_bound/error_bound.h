@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "pdc/monitor.h"
@@ -27,11 +26,13 @@ class ErrorBound {
   ErrorBound(const Buffer<Triangle>& given, const DecimatedSurface& surface, const ErrorLimits& limits,
              const Monitor& monitor);
 
-  /// Takes out collapses, which do not touch each other, that would break the bound if all of them were done, and makes
-  /// ready for the others. Runs in parallel; the result does not depend on the number of threads.
-  /// \returns those taken out. \throws Cancelled.
+  /// Takes out collapses, which do not touch each other, that would break the bound, each alone. Runs in parallel; the
+  /// result does not depend on the number of threads. \returns those taken out. \throws Cancelled.
   [[nodiscard]] std::vector<ChosenCollapse> takeOutFar(const VertexStars& stars, std::vector<ChosenCollapse>& collapses,
                                                        const Monitor& monitor);
+  /// Takes out those that would break the bound if all were done, and makes ready for the others. \param collapses such
+  /// as were not taken out before, in that order. \returns those taken out.
+  [[nodiscard]] std::vector<ChosenCollapse> join(const VertexStars& stars, std::vector<ChosenCollapse>& collapses);
   /// What it is ready for is going to be done. \pre No face has another number yet.
   void accept(const VertexStars& stars);
   /// Tells that a face has another number from now on; lower numbers come first.
@@ -47,31 +48,38 @@ class ErrorBound {
     std::uint32_t face;
     std::uint32_t nextOfTriangle, nextOfFace;
   };
-  /// Faces left that together are near to all of a triangle given.
-  struct Covered {
-    std::uint32_t triangle;
+  /// For some triangles given the faces left that together are near to all of each.
+  struct Coverings {
+    struct Triangle {
+      std::uint32_t number, begin, end;  ///< Of its faces, which are in a list of all.
+    };
+    std::vector<Triangle> triangles;
     Faces faces;
+
+    [[nodiscard]] std::span<const std::uint32_t> of(const Triangle& t) const {
+      return {faces.data() + t.begin, faces.data() + t.end};
+    }
   };
   struct Change {
     ChosenCollapse collapse;
     std::uint32_t below;  ///< The triangle given that is nearest to the vertex.
-    std::vector<Covered> covered;
+    Coverings covered;
   };
   class NearFaces;
 
   void findLinks(const Monitor& monitor);
   [[nodiscard]] std::optional<Change> changeOf(const VertexStars& stars, const ChosenCollapse& collapse,
                                                const Monitor& monitor) const;
-  [[nodiscard]] bool join(const VertexStars& stars, Change& change);
-  [[nodiscard]] std::vector<ChosenCollapse> joinAll(const VertexStars& stars, std::vector<ChosenCollapse>& collapses);
+  [[nodiscard]] bool join(const VertexStars& stars, const Change& change);
+  void setJoined(const Coverings& coverings);
   [[nodiscard]] Faces changedFaces(const VertexStars& stars, const ChosenCollapse& collapse) const;
   [[nodiscard]] NearFaces newFaces(const VertexStars& stars, const ChosenCollapse& collapse) const;
   [[nodiscard]] std::vector<std::uint32_t> trianglesAt(const Faces& faces) const;
-  [[nodiscard]] Faces facesOf(std::uint32_t triangle) const;
+  void facesOf(std::uint32_t triangle, Faces& faces) const;
   [[nodiscard]] bool areNear(const NearFaces& faces, const Faces& changed, std::uint32_t below) const;
-  [[nodiscard]] bool cover(Covered& covered, const Faces& before, const Faces& changed, NearFaces& faces) const;
-  void putInto(const ChosenCollapse& collapse, const Vec3f& a, const Vec3f& b);
-  void link(const Covered& covered);
+  [[nodiscard]] bool cover(std::uint32_t triangle, std::span<const std::uint32_t> before, const Faces& changed,
+                           NearFaces& faces, Coverings& out) const;
+  void link(std::uint32_t triangle, std::span<const std::uint32_t> faces);
   void unlink(std::uint32_t triangle);
   [[nodiscard]] Vec3f placeOf(std::uint32_t vertex) const {
     return mSurface.written(vertex, mSurface.positions[vertex]);
@@ -90,7 +98,8 @@ class ErrorBound {
   std::vector<std::uint32_t> mFree;                           ///< Links to be used again.
   std::vector<std::uint32_t> mFirstOfFace, mFirstOfTriangle;  ///< Links, the faces by number given.
   std::vector<Change> mChanges;                               ///< What it is ready for.
-  std::unordered_map<std::uint32_t, Faces> mJoined;           ///< By triangle given, what they make of its faces.
+  Coverings mJoined;                                          ///< What they make of the faces of triangles given.
+  std::vector<std::uint32_t> mJoinedAt;                       ///< By triangle given, where it is there, or kNone.
 };
 
 }  // namespace pdc::detail
