@@ -6,17 +6,27 @@
 #include <algorithm>
 
 #include "simplify/error_bound/coverage.h"
+#include "simplify/error_bound/height_over.h"
 #include "simplify/vertex_stars.h"
 
 namespace pdc::detail {
+namespace {
 
-/// The surface, as Coverage asks for it.
+/// Heights are rounded by less than this, relative to the distance.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
+/// The surface, as Coverage and HeightOver ask for it.
 class Envelope::Walk {
  public:
   Walk(const Envelope& envelope, std::vector<std::uint32_t>* used) : mEnvelope(envelope), mUsed(used) {}
 
+  [[nodiscard]] TrianglePoints corners(std::uint32_t t) const {
+    return trianglePoints(mEnvelope.mSurface.positions, mEnvelope.mSurface.triangles[t]);
+  }
   const Prism& prism(std::uint32_t t) {
-    mPrism = Prism(trianglePoints(mEnvelope.mSurface.positions, mEnvelope.mSurface.triangles[t]));
+    mPrism = Prism(corners(t));
     return mPrism;
   }
   [[nodiscard]] NearestTriangle nearest(const Vec3d& p, std::uint32_t guess) const {
@@ -56,6 +66,13 @@ NearestTriangle Envelope::findNear(const Vec3d& p, std::uint32_t guess) const {
 bool Envelope::contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used,
                         double distance) const {
   Walk walk(*this, used);
+  // What is over it would be used, too, where less may be enough.
+  if (used == nullptr && near != kNone) {
+    HeightOver<Walk> height(walk, triangle);
+    const auto answer = height.find(distance * (1 - kRounding), near);
+    if (answer == HeightOver<Walk>::Answer::kNear) return true;
+    if (answer == HeightOver<Walk>::Answer::kFar && findNear(height.farPlace(), near).number == kNone) return false;
+  }
   return Coverage<Walk>(walk, distance).covers(triangle, near);
 }
 

@@ -41,6 +41,22 @@ class ErrorBound::NearFaces {
     mPrisms.emplace_back(corners);
     mUsed.push_back(0);
   }
+  /// Adds one about a vertex, its first corner, that all that have been added have. \param c its others.
+  void addAround(std::uint32_t face, const TrianglePoints& corners, const StarCorner& c) {
+    add(face, corners);
+    mAround.push_back({c.next, c.previous, kNone, kNone});
+    const auto own = static_cast<std::uint32_t>(mAround.size() - 1);
+    for (std::uint32_t i = 0; i < own; ++i) {
+      if (mAround[i].previous == c.next) {
+        mAround[own].beyondNext = i;
+        mAround[i].beyondPrevious = own;
+      }
+      if (mAround[i].next == c.previous) {
+        mAround[own].beyondPrevious = i;
+        mAround[i].beyondNext = own;
+      }
+    }
+  }
   [[nodiscard]] std::size_t size() const { return mNumbers.size(); }
   /// Forgets those added last.
   void shrink(std::size_t size) {
@@ -74,12 +90,21 @@ class ErrorBound::NearFaces {
     }
     return nearest;
   }
-  [[nodiscard]] std::uint32_t beyond(std::uint32_t, int) const { return kNone; }
+  [[nodiscard]] std::uint32_t beyond(std::uint32_t i, int k) const {
+    if (i >= mAround.size()) return kNone;
+    return k == 0 ? mAround[i].beyondNext : k == 2 ? mAround[i].beyondPrevious : kNone;
+  }
   void use(std::uint32_t i) { mUsed[i] = 1; }
 
  private:
+  /// Corners of a face about the vertex, and the faces across the edges from the vertex to them.
+  struct Around {
+    std::uint32_t next, previous, beyondNext, beyondPrevious;
+  };
+
   Faces mNumbers;
   std::vector<Prism> mPrisms;
+  std::vector<Around> mAround;
   std::vector<std::uint8_t> mUsed;
 };
 
@@ -204,7 +229,8 @@ ErrorBound::NearFaces ErrorBound::newFaces(const VertexStars& stars, const Chose
   const Vec3d place = vecCast<double>(placeOf(collapse));
   forEachChangedFace(stars, collapse, [&](const StarCorner& c) {
     if (c.next == collapse.b || c.previous == collapse.b) return;
-    faces.add(mFaceGiven[c.face], {place, vecCast<double>(placeOf(c.next)), vecCast<double>(placeOf(c.previous))});
+    faces.addAround(mFaceGiven[c.face],
+                    {place, vecCast<double>(placeOf(c.next)), vecCast<double>(placeOf(c.previous))}, c);
   });
   return faces;
 }
