@@ -4,6 +4,7 @@
 #include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
+#include "pdc/mesh/vertex_covariances.h"
 #include "pdc/sample/implicit/field_source.h"
 
 namespace pdc {
@@ -59,6 +60,19 @@ Json sceneFacts(const std::filesystem::path& path) {
   return facts;
 }
 
+/// Those of a covariance mesh; null where a property of them is missing.
+Json covarianceFacts(const Mesh& mesh) {
+  for (const char* name : kCovarianceNames)
+    if (const VertexProperty* property = mesh.property(name); property == nullptr || property->components != 1)
+      return nullptr;
+  const CovarianceReport report = analyzeCovariances(mesh);
+  Json facts{{"positive_definite", report.definite}};
+  if (report.firstOther) facts["first_other"] = *report.firstOther;
+  facts["least_eigenvalue"] = report.leastEigenvalue;
+  facts["largest_eigenvalue"] = report.largestEigenvalue;
+  return facts;
+}
+
 Json factsByKind(const std::filesystem::path& path) {
   switch (inputKind(path)) {
     case InputKind::kGrid:
@@ -102,6 +116,8 @@ Json meshFileFacts(const MeshFile& file) {
   for (const VertexProperty& property : file.mesh.properties)
     facts["properties"].push_back(
         {{"name", property.name}, {"type", typeName(property)}, {"components", property.components}});
+  if (hasVertexCovariances(file.mesh))
+    if (Json covariances = covarianceFacts(file.mesh); !covariances.is_null()) facts["covariances"] = covariances;
   return facts;
 }
 

@@ -72,4 +72,18 @@ void checkIndices(const Mesh& mesh) {
                           *std::max_element(named.begin(), named.end()), vertices));
 }
 
+void checkFinite(const Mesh& mesh) {
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (!isFinite(mesh.positions[v])) throw Error(fmt::format("vertex {} has a coordinate that is not finite", v));
+}
+
+std::vector<double> scalarNumbers(const Mesh& mesh, const std::string& name) {
+  const VertexProperty* const property = mesh.property(name);
+  if (property == nullptr) throw Error(fmt::format("the vertices have no property '{}'", name));
+  if (property->components != 1)
+    throw Error(fmt::format("the property '{}' has {} numbers per vertex, not 1", name, property->components));
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+                    property->values);
+}
+
 }  // namespace pdc::detail

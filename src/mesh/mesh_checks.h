@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
@@ -14,5 +17,12 @@ void checkSizes(const Mesh& mesh, const char* caller, FaceKinds faces = FaceKind
 
 /// One parallel pass over the faces. \throws Error if a face names a vertex that does not exist.
 void checkIndices(const Mesh& mesh);
+
+/// \throws Error that names the first vertex with a NaN or infinite coordinate.
+void checkFinite(const Mesh& mesh);
+
+/// The numbers of a property that has one for each vertex. \throws Error if there is none of that name, or if it has
+/// several.
+[[nodiscard]] std::vector<double> scalarNumbers(const Mesh& mesh, const std::string& name);
 
 }  // namespace pdc::detail

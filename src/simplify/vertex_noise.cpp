@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "mesh/mesh_checks.h"
 #include "pdc/error.h"
-#include "pdc/math/solvers.h"
-#include "simplify/vertex_properties.h"
+#include "pdc/mesh/vertex_covariances.h"
 
 namespace pdc::detail {
 namespace {
@@ -32,17 +31,7 @@ constexpr double kTrustedNoise = 0.01;
 /// More noise than this counts as no more. Rounding stays far below what such faces count.
 constexpr double kMostNoise = 100;
 
-/// Covariances in single precision may have eigenvalues so far below 0, as a share of the trace.
-constexpr double kNegativeShare = 1e-5;
-
-constexpr std::array<const char*, 6> kCovarianceNames{"covxx", "covxy", "covxz", "covyy", "covyz", "covzz"};
-
 constexpr double square(double x) { return x * x; }
-
-bool isFinite(const SymMat3<double>& m) {
-  return std::isfinite(m.xx) && std::isfinite(m.xy) && std::isfinite(m.xz) && std::isfinite(m.yy) &&
-         std::isfinite(m.yz) && std::isfinite(m.zz);
-}
 
 }  // namespace
 
@@ -54,7 +43,7 @@ NoiseChoice choiceFor(double noise, double fade) {
 }
 
 VertexNoise::VertexNoise(const Mesh& mesh, const std::string& property, double unit) {
-  if (property == "cov" && mesh.property("covxx") != nullptr) {
+  if (property == "cov" && hasVertexCovariances(mesh)) {
     readCovariances(mesh, unit);
   } else {
     readVariances(mesh, property, unit);
@@ -63,7 +52,7 @@ VertexNoise::VertexNoise(const Mesh& mesh, const std::string& property, double u
 }
 
 void VertexNoise::readVariances(const Mesh& mesh, const std::string& property, double unit) {
-  for (const double sigma : numbersOf(mesh, property)) {
+  for (const double sigma : scalarNumbers(mesh, property)) {
     if (!(sigma >= 0 && std::isfinite(sigma)))
       throw Error(fmt::format("the property '{}' of vertex {} is {}; the limit is a finite number >= 0", property,
                               mVariances.size(), sigma));
@@ -72,15 +61,7 @@ void VertexNoise::readVariances(const Mesh& mesh, const std::string& property, d
 }
 
 void VertexNoise::readCovariances(const Mesh& mesh, double unit) {
-  std::array<std::vector<double>, 6> entries;
-  for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = numbersOf(mesh, kCovarianceNames[i]);
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const auto& [xx, xy, xz, yy, yz, zz] = entries;
-    const SymMat3<double> given{xx[v], xy[v], xz[v], yy[v], yz[v], zz[v]};
-    if (!isFinite(given)) throw Error(fmt::format("the covariance of vertex {} is not finite", v));
-    const double least = eigenSymmetric(given).value[2];
-    if (!(least >= -kNegativeShare * std::abs(given.trace())))
-      throw Error(fmt::format("the covariance of vertex {} has the eigenvalue {:.4g}; the limit is 0", v, least));
+  for (const SymMat3<double>& given : vertexCovariances(mesh, CovarianceKind::kSemidefinite)) {
     // Divided twice, because the square of a tiny unit is 0.
     const SymMat3<double> scaled = given * (1 / unit) * (1 / unit);
     const double trace = scaled.trace(), most = 3 * square(kMostNoise);

@@ -1,24 +1,11 @@
 #include "simplify/vertex_properties.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <variant>
 
-#include "pdc/error.h"
-
 namespace pdc::detail {
-
-std::vector<double> numbersOf(const Mesh& mesh, const std::string& name) {
-  const VertexProperty* const property = mesh.property(name);
-  if (property == nullptr) throw Error(fmt::format("the vertices have no property '{}'", name));
-  if (property->components != 1)
-    throw Error(fmt::format("the property '{}' has {} numbers per vertex, not 1", name, property->components));
-  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-                    property->values);
-}
 
 void InterpolatedProperties::blend(std::uint32_t a, std::uint32_t b, double share) {
   for (VertexProperty& property : mProperties)

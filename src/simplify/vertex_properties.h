@@ -2,15 +2,11 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "pdc/mesh/mesh.h"
 
 namespace pdc::detail {
-
-/// The numbers of a mesh's property, one per vertex. \throws Error if there is none, or it has several per vertex.
-[[nodiscard]] std::vector<double> numbersOf(const Mesh& mesh, const std::string& name);
 
 /// The properties of a mesh's vertices while its edges are collapsed.
 class InterpolatedProperties {

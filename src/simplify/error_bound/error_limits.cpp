@@ -4,14 +4,14 @@
 
 #include <cmath>
 
+#include "mesh/mesh_checks.h"
 #include "pdc/error.h"
-#include "simplify/vertex_properties.h"
 
 namespace pdc::detail {
 
 ErrorLimits errorLimits(const Mesh& mesh, const Buffer<Triangle>& faces, double distance, const std::string& property) {
   if (property.empty()) return ErrorLimits(distance);
-  const std::vector<double> scales = numbersOf(mesh, property);
+  const std::vector<double> scales = scalarNumbers(mesh, property);
   for (std::size_t v = 0; v < scales.size(); ++v)
     if (!(scales[v] >= 0 && std::isfinite(static_cast<float>(scales[v]))))
       throw Error(fmt::format("the property '{}' of vertex {} is {}; the limit is a finite number >= 0", property, v,
