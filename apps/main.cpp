@@ -13,6 +13,7 @@
 #include "commands/info_command.h"
 #include "commands/mesh_command.h"
 #include "commands/render_command.h"
+#include "commands/subdivide_command.h"
 #include "commands/sweep_command.h"
 #include "parallel/machine_memory.h"
 #include "pdc/error.h"
@@ -58,6 +59,9 @@ int run(int argc, char** argv) {
   CLI::App* clusterCommand =
       app.add_subcommand("cluster", "Write a mesh with one vertex for each cell of a grid, fast");
   pdc::addClusterOptions(*clusterCommand, cluster);
+  pdc::SubdivideRequest subdivide;
+  CLI::App* subdivideCommand = app.add_subcommand("subdivide", "Refine a mesh into a smooth surface");
+  pdc::addSubdivideOptions(*subdivideCommand, subdivide);
   pdc::SweepRequest sweep;
   CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
   pdc::addSweepOptions(*sweepCommand, sweep);
@@ -74,6 +78,7 @@ int run(int argc, char** argv) {
   if (renderCommand->parsed()) pdc::runRender(render);
   if (decimateCommand->parsed()) pdc::runDecimate(decimate);
   if (clusterCommand->parsed()) pdc::runCluster(cluster);
+  if (subdivideCommand->parsed()) pdc::runSubdivide(subdivide);
   if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }

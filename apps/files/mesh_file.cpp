@@ -7,13 +7,13 @@
 
 namespace pdc {
 
-MeshFile readMeshFile(const std::filesystem::path& path, bool quiet) {
+MeshFile readMeshFile(const std::filesystem::path& path, bool quiet, bool keepPolygons) {
   MeshFile file;
   const auto warn = [&](const std::string& warning) {
     file.warnings.push_back(warning);
     if (!quiet) printWarning(warning);
   };
-  file.mesh = readMesh(path, {.warn = warn});
+  file.mesh = readMesh(path, {.keepPolygons = keepPolygons, .warn = warn});
   return file;
 }
 

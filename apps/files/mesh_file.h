@@ -15,8 +15,9 @@ struct MeshFile {
   std::vector<std::string> warnings;
 };
 
-/// Reads a mesh and puts the warnings on standard error, unless `quiet`. \throws Error.
-[[nodiscard]] MeshFile readMeshFile(const std::filesystem::path& path, bool quiet = false);
+/// Reads a mesh and puts the warnings on standard error, unless `quiet`. \param keepPolygons see MeshReadOptions.
+/// \throws Error.
+[[nodiscard]] MeshFile readMeshFile(const std::filesystem::path& path, bool quiet = false, bool keepPolygons = false);
 
 /// Writes a mesh, with a sign that it is at work unless `quiet`. \returns bytes written. \throws Error.
 std::size_t writeMeshFile(const Mesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
