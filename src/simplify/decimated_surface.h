@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "simplify/local_frame.h"
+#include "mesh/local/local_frame.h"
 #include "simplify/vertex_noise.h"
 
 namespace pdc::detail {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/mesh_checks.h"
+#include "mesh/local/standard_deviations.h"
 #include "pdc/error.h"
 #include "pdc/mesh/vertex_covariances.h"
 
@@ -52,12 +52,8 @@ VertexNoise::VertexNoise(const Mesh& mesh, const std::string& property, double u
 }
 
 void VertexNoise::readVariances(const Mesh& mesh, const std::string& property, double unit) {
-  for (const double sigma : scalarNumbers(mesh, property)) {
-    if (!(sigma >= 0 && std::isfinite(sigma)))
-      throw Error(fmt::format("the property '{}' of vertex {} is {}; the limit is a finite number >= 0", property,
-                              mVariances.size(), sigma));
+  for (const double sigma : standardDeviations(mesh, property))
     mVariances.push_back(square(std::min(sigma / unit, kMostNoise)));
-  }
 }
 
 void VertexNoise::readCovariances(const Mesh& mesh, double unit) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "mesh/faces.h"
+#include "mesh/local/vertex_normals.h"
 #include "mesh/mesh_checks.h"
 #include "pdc/math/box.h"
 #include "pdc/mesh/mesh_report.h"
@@ -87,21 +88,6 @@ void chooseNoise(const detail::DecimatedSurface& surface, const detail::VertexSt
   report.memory = options.memory.value_or(choice.memory);
 }
 
-Buffer<Vec3f> vertexNormals(const Mesh& mesh) {
-  std::vector<Vec3d> sums(mesh.positions.size(), Vec3d{});
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3d p = vecCast<double>(mesh.positions[t[0]]);
-    const Vec3d n = cross(vecCast<double>(mesh.positions[t[1]]) - p, vecCast<double>(mesh.positions[t[2]]) - p);
-    for (const std::uint32_t v : t) sums[v] += n;
-  }
-  Buffer<Vec3f> normals(sums.size());
-  for (std::size_t v = 0; v < sums.size(); ++v) {
-    const double l = length(sums[v]);
-    normals[v] = vecCast<float>(l > 0 ? sums[v] * (1 / l) : Vec3d{});
-  }
-  return normals;
-}
-
 /// The mesh of what is left, its vertices in the order they had.
 Mesh meshOf(const detail::DecimatedSurface& surface, const detail::InterpolatedProperties& properties,
             const Mesh& given) {
@@ -119,7 +105,7 @@ Mesh meshOf(const detail::DecimatedSurface& surface, const detail::InterpolatedP
   }
   for (const Triangle& t : surface.faces) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   mesh.properties = properties.of(used);
-  if (!given.normals.empty()) mesh.normals = vertexNormals(mesh);
+  if (!given.normals.empty()) mesh.normals = detail::vertexNormals(mesh);
   return mesh;
 }
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "pdc/simplify/decimate.h"
-#include "simplify/local_frame.h"
+#include "mesh/local/local_frame.h"
 #include "simplify/shapes.h"
 
 namespace pdc {

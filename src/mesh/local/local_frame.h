@@ -10,7 +10,7 @@
 
 namespace pdc::detail {
 
-/// Maps the positions of a mesh to the frame in which it is decimated, and back: mean edge lengths from the median of
+/// Maps the positions of a mesh to the frame in which it is worked on, and back: mean edge lengths from the median of
 /// its corners, where a few that lie far away do not cost the others their digits.
 class LocalFrame {
  public:
