@@ -14,6 +14,7 @@
 #include "commands/mesh_command.h"
 #include "commands/render_command.h"
 #include "commands/subdivide_command.h"
+#include "commands/smooth_command.h"
 #include "commands/sweep_command.h"
 #include "parallel/machine_memory.h"
 #include "pdc/error.h"
@@ -62,6 +63,9 @@ int run(int argc, char** argv) {
   pdc::SubdivideRequest subdivide;
   CLI::App* subdivideCommand = app.add_subcommand("subdivide", "Refine a mesh into a smooth surface");
   pdc::addSubdivideOptions(*subdivideCommand, subdivide);
+  pdc::SmoothRequest smooth;
+  CLI::App* smoothCommand = app.add_subcommand("smooth", "Write a mesh without its noise, creases kept");
+  pdc::addSmoothOptions(*smoothCommand, smooth);
   pdc::SweepRequest sweep;
   CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
   pdc::addSweepOptions(*sweepCommand, sweep);
@@ -79,6 +83,7 @@ int run(int argc, char** argv) {
   if (decimateCommand->parsed()) pdc::runDecimate(decimate);
   if (clusterCommand->parsed()) pdc::runCluster(cluster);
   if (subdivideCommand->parsed()) pdc::runSubdivide(subdivide);
+  if (smoothCommand->parsed()) pdc::runSmooth(smooth);
   if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }

@@ -7,8 +7,8 @@ cd "$1"
 # By folder. A floor's own files stand above all of its rooms, or below them where it is a seam that they share.
 # Names that no folder has yet are reserved for what comes: points (reconstruction) above extract, tile above io.
 declare -A floor_of=(
-  [parallel]=0 [math]=1 [mesh]=2 [rays]=3 [simplify]=3 [field]=4 [sample]=5 [extract]=6 [render]=6 [points]=7 [io]=8 [study]=9 [tile]=9
-  [subdivide]=3
+  [parallel]=0 [math]=1 [mesh]=2 [rays]=3 [simplify]=3 [smooth]=3 [subdivide]=3 [field]=4 [sample]=5 [extract]=6 [render]=6
+  [points]=7 [io]=8 [study]=9 [tile]=9
 )
 readonly ground=-1 apps=10
 # By folder within a floor. Rooms of one rank do not know each other.
