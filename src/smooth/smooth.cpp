@@ -26,6 +26,10 @@ constexpr std::size_t kGrain = 4096;
 /// More noise than this, in mean edges, counts as no more: the quadrics are those of points by then.
 constexpr double kMostSigma = 100;
 
+/// Less noise than this that a property says, in mean edges, counts as none: contouring says up to 0.02 voxels at clean
+/// creases, which would make them round.
+constexpr double kLeastGiven = 0.02;
+
 /// How well the minimum is known, in mean edges: a vertex whose own noise is as large goes half of the way, as in a
 /// Kalman filter. Decimation takes noise for as small.
 constexpr double kMinimumNoise = 0.01;
@@ -46,7 +50,7 @@ std::vector<double> sigmasOf(const Mesh& mesh, const detail::SmoothedSurface& su
   std::vector<double> sigmas;
   if (!options.sigmaProperty.empty()) {
     sigmas = detail::standardDeviations(mesh, options.sigmaProperty);
-    for (double& sigma : sigmas) sigma /= surface.frame().unit();
+    for (double& sigma : sigmas) sigma = detail::beyondDoubt(sigma / surface.frame().unit(), kLeastGiven);
   } else if (options.sigma) {
     sigmas.assign(mesh.positions.size(), *options.sigma);
   } else {

@@ -22,7 +22,7 @@ constexpr std::size_t kMostCorners = 32;
 constexpr double kDefectPerSquare = 3, kHeightPerNoise = 0.68;
 
 /// Less noise than this, in mean edges, is what sampling does to clean surfaces: of clean contours and CAD meshes one
-/// vertex in a hundred seems to have up to 0.03. From twice as much on it is noise.
+/// vertex in a hundred seems to have up to 0.03.
 constexpr double kLeastSigma = 0.03;
 
 /// The median, 0 for none; the upper one of two.
@@ -68,8 +68,11 @@ class Neighbourhood {
     for (int ring = 0; ring < rings; ++ring) {
       const std::size_t end = mVertices.size();
       for (; begin < end; ++begin)
-        for (const Corner& c : someCorners(surface, mVertices[begin]))
-          mVertices.insert(mVertices.end(), {c.next, c.previous});
+        for (const Corner& c : someCorners(surface, mVertices[begin])) {
+          mVertices.push_back(c.next);
+          // Within the surface each is next to another triangle.
+          if (surface.atBoundary(mVertices[begin])) mVertices.push_back(c.previous);
+        }
     }
     std::sort(mVertices.begin(), mVertices.end());
     mVertices.erase(std::unique(mVertices.begin(), mVertices.end()), mVertices.end());
@@ -120,7 +123,7 @@ std::vector<double> measuredSigmas(const SmoothedSurface& surface) {
     Neighbourhood& around = neighbourhoods.local();
     around.look(surface, v, 1);
     const double sigma = around.median([&](std::uint32_t u) { return raw[u]; });
-    sigmas[v] = std::clamp(2 * (sigma - kLeastSigma), 0.0, sigma);
+    sigmas[v] = beyondDoubt(sigma, kLeastSigma);
   });
   return sigmas;
 }

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "smooth/smoothed_surface.h"
 
 namespace pdc::detail {
+
+/// Noise less the part that may be none: nothing up to `least`, all from twice as much on.
+[[nodiscard]] inline double beyondDoubt(double sigma, double least) {
+  return std::clamp(2 * (sigma - least), 0.0, sigma);
+}
 
 /// The standard deviation of each coordinate of each vertex, in mean edges, as the surface seems to have it there; 0
 /// where that is less than what sampling does to clean surfaces.

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <string>
 
+#include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/smooth/smooth.h"
 #include "simplify/same_bytes.h"
 #include "simplify/shapes.h"
@@ -46,6 +48,13 @@ TEST(VertexSigmas, CleanShapesHaveNone) {
     EXPECT_EQ(largest(measuredSigmas(SmoothedSurface(mesh))), 0) << mesh.positions.size();
     EXPECT_TRUE(test::sameBytes(smooth(mesh, {}), mesh));
   }
+}
+
+TEST(VertexSigmas, TheFanDiskHasNone) {
+  const std::filesystem::path path = std::filesystem::path(PDC_DATA_DIR) / "mesh/fandisk_13k.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const Mesh mesh = readMesh(path);
+  EXPECT_EQ(largest(measuredSigmas(SmoothedSurface(mesh))), 0);
 }
 
 TEST(VertexSigmas, NoiseIsFoundToAFifth) {

@@ -11,12 +11,12 @@ namespace pdc {
 
 struct SmoothOptions {
   /// How often the quadric of each face is averaged with those of its neighbours, 0 to 1000.
-  int iterations = 5;
+  int iterations = 10;
   /// Standard deviation of each coordinate of the vertices, 0 or more, in mean edge lengths of the mesh, the same for
   /// all; 0 moves nothing. If not set, each vertex has what the surface seems to have around it, and none below 0.03.
   std::optional<double> sigma{};
   /// The property of the mesh that has the standard deviation of each vertex, in world units, finite and 0 or more, as
-  /// contour() gives "sigma". None if empty. It takes the place of `sigma`.
+  /// contour() gives "sigma". None if empty. It takes the place of `sigma`. Less than 0.02 mean edges is none.
   std::string sigmaProperty{};
   /// Whether each face counts the same, whatever its size; else by the square of its area.
   bool normaliseArea = false;
@@ -49,7 +49,7 @@ struct SmoothReport {
 /// that are not finite, stay where they are.
 /// \throws std::invalid_argument for options out of range and as Mesh says; Error for a mesh without faces, for one
 /// whose faces do not form one oriented fan at each vertex, for a face that names a vertex that does not exist, and for
-/// a property that is missing or no standard deviation; Cancelled. Progress: "smooth". Memory: some 450 bytes per
+/// a property that is missing or no standard deviation; Cancelled. Progress: "smooth". Memory: some 550 bytes per
 /// vertex besides the meshes.
 [[nodiscard]] Mesh smooth(const Mesh& mesh, const SmoothOptions& options, SmoothReport* report = nullptr,
                           const Monitor& monitor = {});
