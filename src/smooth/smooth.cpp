@@ -46,7 +46,10 @@ void check(const SmoothOptions& o) {
   require(!o.sigma || (*o.sigma >= 0 && std::isfinite(*o.sigma)), "sigma is not 0 or more");
 }
 
-std::vector<double> sigmasOf(const Mesh& mesh, const detail::SmoothedSurface& surface, const SmoothOptions& options) {
+bool isMeasured(const SmoothOptions& options) { return options.sigmaProperty.empty() && !options.sigma; }
+
+std::vector<double> sigmasOf(const Mesh& mesh, const detail::SmoothedSurface& surface, const SmoothOptions& options,
+                             detail::BlockProgress& progress) {
   std::vector<double> sigmas;
   if (!options.sigmaProperty.empty()) {
     sigmas = detail::standardDeviations(mesh, options.sigmaProperty);
@@ -54,7 +57,7 @@ std::vector<double> sigmasOf(const Mesh& mesh, const detail::SmoothedSurface& su
   } else if (options.sigma) {
     sigmas.assign(mesh.positions.size(), *options.sigma);
   } else {
-    sigmas = detail::measuredSigmas(surface);
+    sigmas = detail::measuredSigmas(surface, progress);
   }
   for (double& sigma : sigmas) sigma = std::min(sigma, kMostSigma);
   return sigmas;
@@ -133,15 +136,16 @@ Mesh smooth(const Mesh& mesh, const SmoothOptions& options, SmoothReport* report
   SmoothReport& facts = report != nullptr ? *report : own;
   facts = {};
   monitor.throwIfStopped();
-  const detail::SmoothedSurface surface(mesh);
-  const std::vector<double> sigmas = sigmasOf(mesh, surface, options);
+  const detail::SmoothedSurface surface(mesh, monitor);
   facts.vertices = mesh.positions.size();
   facts.triangles = detail::triangleCount(mesh);
   facts.degenerateFaces = facts.triangles - surface.triangles().size();
   facts.meanEdge = surface.frame().unit();
 
   const auto passes = static_cast<std::size_t>(options.iterations) + 1;
-  detail::BlockProgress progress(monitor, "smooth", surface.faces() * passes + surface.vertices());
+  const std::size_t vertexPasses = isMeasured(options) ? 1 + detail::kMeasuringPasses : 1;
+  detail::BlockProgress progress(monitor, "smooth", surface.faces() * passes + surface.vertices() * vertexPasses);
+  const std::vector<double> sigmas = sigmasOf(mesh, surface, options, progress);
   detail::FaceQuadrics quadrics(surface, sigmas, options.normaliseArea, progress);
   const auto averaging = options.plain ? detail::Averaging::kPlain : detail::Averaging::kByNoise;
   for (int i = 0; i < options.iterations; ++i) quadrics.average(averaging, progress);

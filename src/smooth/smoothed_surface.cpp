@@ -85,24 +85,27 @@ std::size_t placeOf(const Triangle& t, std::uint32_t vertex) {
 
 }  // namespace
 
-SmoothedSurface::SmoothedSurface(const Mesh& mesh)
+SmoothedSurface::SmoothedSurface(const Mesh& mesh, const Monitor& monitor)
     : mTriangles(usableTriangles(mesh)),
       mConnectivity(connectivityOf(mTriangles, mesh.positions.size())),
       mWallFrom(mesh.positions.size(), kNone) {
+  monitor.throwIfStopped();
   mFrame = LocalFrame(mesh, mTriangles);
   mPositions.resize(mesh.positions.size());
   forEachInParallel(mPositions.size(), kGrain,
                     [&](std::uint32_t v) { mPositions[v] = mFrame.local(mesh.positions[v]); });
-  connectTriangles();
+  connectTriangles(monitor);
+  monitor.throwIfStopped();
   addWalls();
 }
 
-void SmoothedSurface::connectTriangles() {
+void SmoothedSurface::connectTriangles(const Monitor& monitor) {
   mNeighbours.assign(mTriangles.size(), {kNone, kNone, kNone});
   std::atomic<std::uint32_t> bad = 0, firstBad = kNone;
   tbb::enumerable_thread_specific<Fan> fans;
   forEachInParallel(vertices(), kGrain, [&](std::uint32_t v) {
     if (corners(v).empty()) return;
+    if (v % kGrain == 0) monitor.throwIfStopped();
     Fan& fan = fans.local();
     fan.look(corners(v));
     if (!fan.isOne()) {

@@ -9,6 +9,7 @@
 
 #include "mesh/connectivity.h"
 #include "mesh/local/local_frame.h"
+#include "pdc/monitor.h"
 
 namespace pdc::detail {
 
@@ -25,8 +26,9 @@ class SmoothedSurface {
   };
 
   /// Runs in parallel; the result does not depend on the number of threads. \param mesh its indices are in range.
-  /// \throws Error for a mesh without usable triangles, and where these do not form one oriented fan at each vertex.
-  explicit SmoothedSurface(const Mesh& mesh);
+  /// \throws Error for a mesh without usable triangles, and where these do not form one oriented fan at each vertex;
+  /// Cancelled. No progress is reported.
+  explicit SmoothedSurface(const Mesh& mesh, const Monitor& monitor = {});
 
   [[nodiscard]] const LocalFrame& frame() const { return mFrame; }
   [[nodiscard]] std::size_t vertices() const { return mPositions.size(); }
@@ -58,7 +60,7 @@ class SmoothedSurface {
   }
 
  private:
-  void connectTriangles();
+  void connectTriangles(const Monitor& monitor);
   void addWalls();
 
   LocalFrame mFrame;

@@ -1,12 +1,12 @@
 #include "smooth/vertex_sigmas.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "parallel/for_each_in_parallel.h"
 
 namespace pdc::detail {
 namespace {
@@ -31,6 +31,14 @@ double medianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+template <typename Visit>
+void forEachVertex(std::size_t vertices, BlockProgress& progress, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, kGrain), [&](const auto& range) {
+    for (std::size_t v = range.begin(); v < range.end(); ++v) visit(static_cast<std::uint32_t>(v));
+    progress.advance(range.size());
+  });
 }
 
 std::span<const Corner> someCorners(const SmoothedSurface& surface, std::uint32_t vertex) {
@@ -105,13 +113,13 @@ class Neighbourhood {
 
 }  // namespace
 
-std::vector<double> measuredSigmas(const SmoothedSurface& surface) {
+std::vector<double> measuredSigmas(const SmoothedSurface& surface, BlockProgress& progress) {
   const std::size_t vertices = surface.vertices();
   std::vector<Bend> bends(vertices);
-  forEachInParallel(vertices, kGrain, [&](std::uint32_t v) { bends[v] = bendAt(surface, v); });
+  forEachVertex(vertices, progress, [&](std::uint32_t v) { bends[v] = bendAt(surface, v); });
   tbb::enumerable_thread_specific<Neighbourhood> neighbourhoods;
   std::vector<double> raw(vertices), sigmas(vertices);
-  forEachInParallel(vertices, kGrain, [&](std::uint32_t v) {
+  forEachVertex(vertices, progress, [&](std::uint32_t v) {
     Neighbourhood& around = neighbourhoods.local();
     around.look(surface, v, 2);
     const double defect = around.spread(surface, [&](std::uint32_t u) { return bends[u].defect; });
@@ -119,7 +127,7 @@ std::vector<double> measuredSigmas(const SmoothedSurface& surface) {
     raw[v] = std::min(std::sqrt(defect / kDefectPerSquare), height / kHeightPerNoise);
   });
   // Once more the median, because where creases meet a few vertices may seem to have noise.
-  forEachInParallel(vertices, kGrain, [&](std::uint32_t v) {
+  forEachVertex(vertices, progress, [&](std::uint32_t v) {
     Neighbourhood& around = neighbourhoods.local();
     around.look(surface, v, 1);
     const double sigma = around.median([&](std::uint32_t u) { return raw[u]; });

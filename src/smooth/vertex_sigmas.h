@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "parallel/block_progress.h"
 #include "smooth/smoothed_surface.h"
 
 namespace pdc::detail {
@@ -20,6 +21,8 @@ namespace pdc::detail {
 /// a few of some twenty there, and an even curvature is the median itself. Where the surface bends in one direction,
 /// noise makes defects larger than on a plane; the distances of vertices from the mean of their neighbours do not have
 /// that fault, but change along with curvature. Noise shows in both, and the lesser of the two figures counts.
-[[nodiscard]] std::vector<double> measuredSigmas(const SmoothedSurface& surface);
+/// \param progress advances by kMeasuringPasses times the number of vertices. \throws Cancelled.
+[[nodiscard]] std::vector<double> measuredSigmas(const SmoothedSurface& surface, BlockProgress& progress);
+inline constexpr std::size_t kMeasuringPasses = 3;
 
 }  // namespace pdc::detail

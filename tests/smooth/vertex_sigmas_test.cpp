@@ -36,6 +36,12 @@ Mesh cone(int n, int m, double top) {
   return mesh;
 }
 
+std::vector<double> sigmasOf(const SmoothedSurface& surface) {
+  const Monitor monitor;
+  BlockProgress progress(monitor, "", 1);
+  return measuredSigmas(surface, progress);
+}
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -45,7 +51,7 @@ double largest(const std::vector<double>& values) { return *std::max_element(val
 TEST(VertexSigmas, CleanShapesHaveNone) {
   for (const Mesh& mesh : {cube(2), cube(3), cube(16), sphere(12), torus(24), plate(10), cone(32, 10, 1),
                            cone(32, 10, 0.5), cone(32, 10, 0.001)}) {
-    EXPECT_EQ(largest(measuredSigmas(SmoothedSurface(mesh))), 0) << mesh.positions.size();
+    EXPECT_EQ(largest(sigmasOf(SmoothedSurface(mesh))), 0) << mesh.positions.size();
     EXPECT_TRUE(test::sameBytes(smooth(mesh, {}), mesh));
   }
 }
@@ -54,7 +60,7 @@ TEST(VertexSigmas, TheFanDiskHasNone) {
   const std::filesystem::path path = std::filesystem::path(PDC_DATA_DIR) / "mesh/fandisk_13k.off";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Mesh mesh = readMesh(path);
-  EXPECT_EQ(largest(measuredSigmas(SmoothedSurface(mesh))), 0);
+  EXPECT_EQ(largest(sigmasOf(SmoothedSurface(mesh))), 0);
 }
 
 TEST(VertexSigmas, NoiseIsFoundToAFifth) {
@@ -65,7 +71,7 @@ TEST(VertexSigmas, NoiseIsFoundToAFifth) {
       const SmoothedSurface surface(mesh);
       // The noise makes edges longer, too.
       const double unit = surface.frame().unit() / SmoothedSurface(clean).frame().unit();
-      EXPECT_NEAR(mean(measuredSigmas(surface)) * unit, noise, 0.2 * noise) << clean.positions.size();
+      EXPECT_NEAR(mean(sigmasOf(surface)) * unit, noise, 0.2 * noise) << clean.positions.size();
     }
 }
 
@@ -75,7 +81,7 @@ TEST(VertexSigmas, NoiseIsFoundWhereItIs) {
   test::addNoise(mesh, 0.01);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (clean.positions[v].x < 0) mesh.positions[v] = clean.positions[v];
-  const std::vector<double> sigmas = measuredSigmas(SmoothedSurface(mesh));
+  const std::vector<double> sigmas = sigmasOf(SmoothedSurface(mesh));
   double least = 1, count = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     // Three edges, of a twelfth each, are as far as anything is looked at.
@@ -94,7 +100,7 @@ TEST(VertexSigmas, NoiseIsFoundWhereItIs) {
 TEST(VertexSigmas, ASpikeDoesNotJudgeItself) {
   Mesh mesh = plate(20);
   mesh.positions[210].z = 0.2F;
-  EXPECT_EQ(largest(measuredSigmas(SmoothedSurface(mesh))), 0);
+  EXPECT_EQ(largest(sigmasOf(SmoothedSurface(mesh))), 0);
 }
 
 TEST(VertexSigmas, FansOfManyTrianglesTakeNoTime) {
@@ -107,7 +113,7 @@ TEST(VertexSigmas, FansOfManyTrianglesTakeNoTime) {
     mesh.positions.push_back(vecCast<float>(Vec3d{1e4 * std::cos(angle), 1e4 * std::sin(angle), 0}));
     mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kRim});
   }
-  EXPECT_EQ(measuredSigmas(SmoothedSurface(mesh)).size(), kRim + 1);
+  EXPECT_EQ(sigmasOf(SmoothedSurface(mesh)).size(), kRim + 1);
 }
 
 }  // namespace
