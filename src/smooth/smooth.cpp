@@ -34,6 +34,10 @@ constexpr double kLeastGiven = 0.02;
 /// Kalman filter. Decimation takes noise for as small.
 constexpr double kMinimumNoise = 0.01;
 
+/// A vertex goes no farther than this many standard deviations of its coordinates. With 3 contours, whose noise is up
+/// to twice what is known of it, keep a tenth more of it; without a limit CAD meshes of few vertices lose their shape.
+constexpr double kMostSteps = 8;
+
 /// Eigenvalues that are smaller, as a share of the largest, say nothing where noise does not: the cutoff of Lindstrom
 /// 2000.
 constexpr double kClassicalCutoff = 1e-3;
@@ -88,7 +92,7 @@ Buffer<Vec3d> targetsOf(const detail::FaceQuadrics& quadrics, const detail::Smoo
       const auto v = static_cast<std::uint32_t>(i);
       if (surface.corners(v).empty() || sigmas[v] == 0 || (lockBoundary && surface.atBoundary(v))) continue;
       Vec3d step = stepToMinimum(quadrics.sumAt(v));
-      const double most = longestEdge(surface, v), wanted = length(step);
+      const double most = std::min(longestEdge(surface, v), kMostSteps * sigmas[v]), wanted = length(step);
       if (wanted > most) {
         step *= most / wanted;
         ++count;

@@ -39,7 +39,7 @@ struct SmoothReport {
 /// Moves the vertices of a mesh so that noise goes and creases stay (Trettner & Kobbelt 2020, section 5.2). Each face
 /// gets its probabilistic triangle quadric, quadrics are averaged with those of the faces across their edges, and each
 /// vertex goes to the minimum of the sum over its faces: all the way where it has noise, and not where it has none. No
-/// vertex goes farther than its longest edge.
+/// vertex goes farther than its longest edge, or than eight standard deviations.
 ///
 /// Boundaries are held like creases, by planes that stand on them, so that they are smoothed and do not shrink. Faces,
 /// their order, and properties of vertices stay as they are. The result does not depend on the number of threads, nor
