@@ -183,6 +183,53 @@ void printTweety(const std::filesystem::path& file) {
   printShape("linear", upright(subdivide(mesh, options)), "tweety_linear");
 }
 
+/// Figure 11 has a helix of thin quads, whose numbers are not printed: this is one of our own, closed into a ring. Each
+/// ring of its corners is turned against the one before, so that quads lie askew.
+Mesh twistedRing() {
+  constexpr int kAround = 12, kSides = 12;
+  constexpr double kRadius = 0.4, kTwist = 2;  // In sides, from ring to ring.
+  Mesh mesh;
+  for (int i = 0; i < kAround; ++i)
+    for (int k = 0; k < kSides; ++k) {
+      const double u = 2 * std::numbers::pi * i / kAround, v = 2 * std::numbers::pi * (k + kTwist * i) / kSides;
+      const double s = 1 + kRadius * std::cos(v);
+      mesh.positions.push_back(pdc::vecCast<float>(Vec3d{s * std::cos(u), s * std::sin(u), kRadius * std::sin(v)}));
+    }
+  const auto at = [](int i, int k) { return static_cast<std::uint32_t>(i % kAround * kSides + k % kSides); };
+  for (int i = 0; i < kAround; ++i)
+    for (int k = 0; k < kSides; ++k) mesh.quads.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)});
+  return mesh;
+}
+
+void printRing() {
+  fmt::print("\n## Figure 11\n\n| | radius, mean | deviation | mean curvature, deviation |\n|---|---|---|---|\n");
+  const Mesh ring = twistedRing();
+  write(ring, "ring");
+  const auto print = [](const std::string& name, const Mesh& mesh) {
+    double sum = 0, squares = 0, bend = 0, bends = 0;
+    const auto curvature = mesh.values<float>("mean_curvature");
+    const auto n = static_cast<double>(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const pdc::Vec3f p = mesh.positions[v];
+      const double radius = std::hypot(std::hypot(p.x, p.y) - 1, p.z);
+      sum += radius / n;
+      squares += radius * radius / n;
+      bend += curvature[v] / n;
+      bends += static_cast<double>(curvature[v]) * curvature[v] / n;
+    }
+    fmt::print("| {} | {:.4f} | {:.4f} | {:.3f} |\n", name, sum, std::sqrt(squares - sum * sum),
+               std::sqrt(bends - bend * bend));
+    write(mesh, "ring_" + name);
+  };
+  SubdivideOptions options{.levels = 4, .scheme = kCatmullClark, .limit = true, .curvature = true};
+  for (const double bias : {0.01, 0.05, 0.2}) {
+    options.covariances = pdc::InferenceOptions{.bias = bias};
+    print(fmt::format("Gaussians_{:g}", bias), subdivide(ring, options));
+  }
+  options.covariances.reset();
+  print("linear", subdivide(ring, options));
+}
+
 /// How fast meshes come to their limit, and how fast the turn between neighbours goes.
 void printLimits() {
   fmt::print(
@@ -223,6 +270,7 @@ int main(int argc, char** argv) {
     printCubes();
     printQuadrics();
     if (argc > 2) printTweety(argv[2]);
+    printRing();
     printLimits();
   } catch (const std::exception& e) {
     fmt::print(stderr, "subdivision_figures: {}\n", e.what());
