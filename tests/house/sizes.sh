@@ -19,7 +19,7 @@ sources() { find include src apps tests bench \( -name '*.h' -o -name '*.cpp' \)
 measure() {
   local file
   sources | while IFS= read -r file; do echo "$(wc -l <"$file") $most_lines lines of $file"; done
-  sources | sed 's|/[^/]*$||' | uniq -c | awk -v most=$most_files '{ print $1, most, "files in " $2 }'
+  sources | sed 's|/[^/]*$||' | sort | uniq -c | awk -v most=$most_files '{ print $1, most, "files in " $2 }'
   # Functions are the braces that stand, in scopes only, behind a parenthesis.
   sources | xargs awk -v most_lines=$most_function_lines -v most_parameters=$most_parameters '
     function plain(line,    at, rest) {  # Without strings, characters and comments.

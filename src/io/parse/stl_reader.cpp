@@ -15,7 +15,7 @@
 #include "io/file/text_scanner.h"
 #include "io/parse/malformed.h"
 #include "io/parse/origin_text.h"
-#include "mesh/weld.h"
+#include "mesh/welding/weld.h"
 #include "pdc/error.h"
 
 namespace pdc::detail {

@@ -1,4 +1,4 @@
-#include "mesh/weld.h"
+#include "mesh/welding/weld.h"
 
 #include <fmt/format.h>
 
