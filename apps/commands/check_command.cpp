@@ -5,12 +5,12 @@
 #include <array>
 #include <string>
 
-#include "commands/info_facts.h"
 #include "files/json_file.h"
 #include "files/mesh_file.h"
 #include "parallel/with_threads.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/mesh/self_intersections.h"
+#include "reports/info_facts.h"
 #include "terminal/busy_sign.h"
 #include "terminal/facts_text.h"
 #include "terminal/interrupt.h"

@@ -1,8 +1,8 @@
 #include "commands/info_command.h"
 
 #include "commands/info_comparison.h"
-#include "commands/info_facts.h"
 #include "files/json_file.h"
+#include "reports/info_facts.h"
 #include "terminal/busy_sign.h"
 #include "terminal/facts_text.h"
 #include "terminal/interrupt.h"

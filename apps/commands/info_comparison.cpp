@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "commands/info_facts.h"
 #include "files/mesh_file.h"
 #include "pdc/error.h"
 #include "pdc/mesh/mesh_comparison.h"
+#include "reports/info_facts.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"

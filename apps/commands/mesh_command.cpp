@@ -9,7 +9,6 @@
 #include <limits>
 #include <vector>
 
-#include "commands/json_report.h"
 #include "extract/contour_memory.h"
 #include "files/json_file.h"
 #include "files/mesh_file.h"
@@ -18,6 +17,7 @@
 #include "parallel/stopwatch.h"
 #include "pdc/extract/contour_forecast.h"
 #include "pdc/io/mesh/mesh_writer.h"
+#include "reports/json_report.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"

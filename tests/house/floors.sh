@@ -19,7 +19,7 @@ declare -A room_of=(
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
   [field]=0 [field/primitives]=1 [field/operators]=1
   [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/scene]=2 [io]=4
-  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/commands]=3 [apps]=4
+  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps]=5
 )
 
 # Sets `floor`, `room` and `rank` to those of a path below include/pdc or src, or of the text of an #include: by its
@@ -32,7 +32,7 @@ find_place() {
     floor=$ground
     room=ground
     return
-  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == commands ]]; then
+  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == reports || "$top" == commands ]]; then
     floor=$apps
     [[ "$top" == apps ]] || room=apps/$folder
   elif [[ -n "${floor_of[$top]-}" ]]; then

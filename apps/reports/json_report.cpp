@@ -1,4 +1,4 @@
-#include "commands/json_report.h"
+#include "reports/json_report.h"
 
 #include <cmath>
 #include <thread>

@@ -1,11 +1,11 @@
-#include "commands/info_facts.h"
+#include "reports/info_facts.h"
 
-#include "commands/json_report.h"
 #include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/mesh/vertex_covariances.h"
 #include "pdc/sample/implicit/field_source.h"
+#include "reports/json_report.h"
 
 namespace pdc {
 namespace {
