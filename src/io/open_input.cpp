@@ -37,6 +37,7 @@ void checkSceneOptions(const fs::path& path, const InputOptions& options) {
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
   refuseOther(options.adaptiveGrid.has_value(), path, "an adaptive grid", grids);
+  refuseOther(options.allAttributes || !options.attributes.empty(), path, "an attribute", grids);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
   if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
     throw Error(fmt::format("the resolution must be from 1 to {}, not {}", kMaxVoxelsPerAxis, *options.resolution));
@@ -62,6 +63,34 @@ openvdb::GridBase::ConstPtr readCompanion(const fs::path& path, const std::optio
   return readVdbGrid(path, *name);
 }
 
+/// The name of the grid that is contoured, as the file's list has it.
+std::string ownName(const std::vector<VdbGridName>& names, const InputOptions& options) {
+  if (options.grid && !options.grid->empty()) return *options.grid;
+  return std::find_if(names.begin(), names.end(), [](const VdbGridName& n) { return n.contourable; })->name;
+}
+
+/// Reads what vertices are to have besides their places. Notes grids that are passed over.
+void readAttributes(const fs::path& path, const InputOptions& options, Input& input) {
+  if (!options.allAttributes && options.attributes.empty()) return;
+  const std::vector<VdbGridName> names = listVdbNames(path);
+  const std::string own = ownName(names, options);
+  std::vector<std::string> wanted = options.attributes;
+  if (options.allAttributes)
+    for (const auto& [name, type, contourable, sampled] : names) {
+      if (name == own) continue;
+      if (sampled)
+        wanted.push_back(name);
+      else
+        input.warnings.push_back(fmt::format("grid \"{}\" of type {} is no attribute", name, type));
+    }
+  for (const std::string& name : wanted) {
+    if (name == own) throw Error(fmt::format("the attribute '{}' is the grid itself", name));
+    if (std::count(wanted.begin(), wanted.end(), name) > 1)
+      throw Error(fmt::format("the attribute '{}' is named twice", name));
+    input.attributes.push_back({name, readVdbAttribute(path, name)});
+  }
+}
+
 Input openGrid(const fs::path& path, const InputOptions& options) {
   checkGridOptions(path, options);
   const auto grid = readVdbGrid(path, options.grid.value_or(""));
@@ -85,6 +114,7 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
   input.crossingsWithoutData = source->crossingsWithoutData();
   input.meaning = source->meaning();
   input.warnings = detail::gridWarnings(source->meaning(), detail::OptionStyle::kProgram);
+  readAttributes(path, options, input);
   input.whyEmpty = [path, name = grid->getName(), iso = input.iso] { return whyGridIsEmpty(path, name, iso); };
   input.source = std::move(source);
   return input;

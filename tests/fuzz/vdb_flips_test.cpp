@@ -50,8 +50,10 @@ void writeFiles(const fs::path& folder) {
   instance->setTransform(openvdb::math::Transform::createFrustumTransform(
       openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(9)), 0.5, 2.0, 1.0));
   write("2", kBlosc | kMask, {shared, instance});
-  write("3", kBlosc | kMask, {smallGrid<openvdb::FloatGrid>("h", true)});
-  write("4", kMask, {smallGrid<openvdb::BoolGrid>("b", false), smallGrid<openvdb::Int64Grid>("l", false)});
+  write("3", kBlosc | kMask, {smallGrid<openvdb::FloatGrid>("h", true), smallGrid<openvdb::Vec3SGrid>("v", true)});
+  write("4", kMask,
+        {smallGrid<openvdb::BoolGrid>("b", false), smallGrid<openvdb::Int64Grid>("l", false),
+         smallGrid<openvdb::Vec3IGrid>("w", false), smallGrid<openvdb::Vec3DGrid>("e", false)});
   std::ostringstream stream;
   openvdb::io::Stream(stream).write(
       openvdb::GridCPtrVec{smallGrid<openvdb::Int32Grid>("i", false), smallGrid<openvdb::FloatGrid>("f", true)});
@@ -63,6 +65,8 @@ constexpr std::size_t kFiles = 6;
 void readDamaged(const fs::path& path) {
   for (const VdbGridInfo& info : listVdbGrids(path))
     if (info.contourable) static_cast<void>(readVdbGrid(path, info.name));
+  for (const VdbGridName& name : listVdbNames(path))
+    if (name.sampled) static_cast<void>(readVdbAttribute(path, name.name));
 }
 
 std::vector<std::string> makeFiles(const TemporaryFolder& folder) {

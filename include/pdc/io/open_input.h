@@ -35,7 +35,10 @@ struct InputOptions {
   std::optional<InsideValues> inside{};    ///< Empty: decided from the grid.
   bool floodFill = false;                  ///< See GridSourceOptions.
   std::optional<std::string> sigmaGrid{};  ///< A grid of the same file: standard deviation of each value, in its units.
-  std::optional<std::string> weightGrid{};    ///< A grid of the same file: how much each value counts beside others.
+  std::optional<std::string> weightGrid{};  ///< A grid of the same file: how much each value counts beside others.
+  /// Further grids of the same file, of any transform, as readVdbAttribute() takes them, in this order.
+  std::vector<std::string> attributes{};
+  bool allAttributes = false;  ///< All further grids that can be sampled, in file order; then `attributes` is empty.
   std::optional<std::string> adaptiveGrid{};  ///< A float or double grid of the same file, of any transform.
 
   // For scenes only; at most one of them. Neither: what the scene says.
@@ -53,6 +56,12 @@ enum class PlaneOrigin {
 /// "gradient", "distance" or "function", as reports have it.
 [[nodiscard]] std::string_view planeOriginName(PlaneOrigin origin);
 
+/// A grid whose values the mesh's vertices may have; see gridAttribute().
+struct InputAttribute {
+  std::string name;
+  openvdb::GridBase::ConstPtr grid;  ///< Not null.
+};
+
 /// An input that is ready to be contoured.
 struct Input {
   std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
@@ -60,6 +69,7 @@ struct Input {
   std::optional<double> sigmaNormal{};          ///< σn (no unit, >= 0 or infinite), if a scene says one.
   FieldPtr field{};  ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
   std::function<double(const Vec3d&)> adaptiveScale{};  ///< See ContourOptions; the adaptive grid's, if there is one.
+  std::vector<InputAttribute> attributes{};             ///< As asked for.
   std::optional<Box> cut{};  ///< Where a scene's solid is cut off and closed; empty for a grid and an open surface.
   PlaneOrigin planeOrigin = PlaneOrigin::kGradient;
   double valueNoise = 0;         ///< Standard deviation of the values' noise in voxels where it was estimated; else 0.
@@ -75,9 +85,9 @@ struct Input {
 
 /// Reads a .vdb grid or a scene and makes the source that `pdc mesh` contours. A grid is wholly in memory afterwards;
 /// OpenVDB is initialised on the way. Cannot be stopped while OpenVDB reads. \throws Error for another kind of file,
-/// options that go with another kind of input, both a voxel size and a resolution, a σ, weight or adaptive grid without
-/// a name or that is the grid itself; whatever readVdbGrid(), gridFunction(), GridSource, readScene() and FieldSource
-/// throw.
+/// options that go with another kind of input, both a voxel size and a resolution, a σ, weight or adaptive grid or an
+/// attribute without a name or that is the grid itself, an attribute that is named twice; whatever readVdbGrid(),
+/// readVdbAttribute(), gridFunction(), GridSource, readScene() and FieldSource throw.
 [[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {});
 
 }  // namespace pdc

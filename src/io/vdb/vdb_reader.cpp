@@ -85,7 +85,7 @@ VdbGridInfo describe(const VdbFile& file, const VdbEntry& entry, const VdbGridHe
       GridBase::stringToGridClass(metaValue<std::string>(map, GridBase::META_GRID_CLASS, "")));
   info.transform = transformKind(*transform);
   info.savedAsHalf = head.half;
-  info.contourable = detail::isKnownVdbTree(entry.type);
+  info.contourable = detail::isContourableVdbTree(entry.type);
   info.voxelSize = {voxel.x(), voxel.y(), voxel.z()};
   info.activeVoxels = static_cast<std::size_t>(
       std::max<openvdb::Int64>(0, metaValue<openvdb::Int64>(map, GridBase::META_FILE_VOXEL_COUNT, 0)));
@@ -145,7 +145,7 @@ void describeVoxels(const openvdb::GridBase& grid, VdbGridInfo& info) {
 std::string listNames(const VdbFile& file, bool contourable) {
   std::string list;
   for (const VdbEntry& entry : file.entries())
-    if (detail::isKnownVdbTree(entry.type) == contourable)
+    if (detail::isContourableVdbTree(entry.type) == contourable)
       list += fmt::format("{}\"{}\" ({})", list.empty() ? "" : ", ", entry.shownName(), valueType(entry.type));
   return list;
 }
@@ -161,7 +161,7 @@ std::string listNames(const VdbFile& file) {
 const VdbEntry& findEntry(const VdbFile& file, const std::string& name) {
   const VdbEntry* found = nullptr;
   for (const VdbEntry& entry : file.entries()) {
-    const bool wanted = name.empty() ? detail::isKnownVdbTree(entry.type) : entry.shownName() == name;
+    const bool wanted = name.empty() ? detail::isContourableVdbTree(entry.type) : entry.shownName() == name;
     if (!wanted) continue;
     if (found != nullptr && name.empty())
       throw Error(fmt::format("more than one grid can be contoured; choose one by name: {}", listNames(file)));
@@ -190,9 +190,32 @@ openvdb::GridBase::Ptr readVdbGrid(const std::filesystem::path& path, const std:
   return withFileName(path, [&] {
     VdbFile file(path);
     const VdbEntry& entry = findEntry(file, name);
-    if (!detail::isKnownVdbTree(entry.type))
+    if (!detail::isContourableVdbTree(entry.type))
       throw Error(fmt::format("grid \"{}\" of type {} cannot be contoured; {} can", entry.shownName(),
                               valueType(entry.type), detail::contourableTypeNames()));
+    return detail::readGrid(path, file, entry);
+  });
+}
+
+std::vector<VdbGridName> listVdbNames(const std::filesystem::path& path) {
+  return withFileName(path, [&] {
+    const VdbFile file(path);
+    std::vector<VdbGridName> names;
+    for (const VdbEntry& entry : file.entries())
+      names.push_back({entry.shownName(), valueType(entry.type), detail::isContourableVdbTree(entry.type),
+                       detail::isSampledVdbTree(entry.type)});
+    return names;
+  });
+}
+
+openvdb::GridBase::Ptr readVdbAttribute(const std::filesystem::path& path, const std::string& name) {
+  return withFileName(path, [&] {
+    if (name.empty()) throw Error("the name of an attribute is empty");
+    VdbFile file(path);
+    const VdbEntry& entry = findEntry(file, name);
+    if (!detail::isSampledVdbTree(entry.type))
+      throw Error(fmt::format("grid \"{}\" of type {} cannot be sampled; {} can", entry.shownName(),
+                              valueType(entry.type), detail::gridTypeNames<detail::SampledGrids>()));
     return detail::readGrid(path, file, entry);
   });
 }

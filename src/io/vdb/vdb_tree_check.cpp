@@ -27,9 +27,12 @@ struct ValueSize {
 std::optional<ValueSize> valueSize(const std::string& type) {
   constexpr std::uint64_t kHalf = 2;
   std::optional<ValueSize> size;
-  forEachContourableType([&]<typename GridT>(std::type_identity<GridT>) {
+  forEachGridType<SampledGrids>([&]<typename GridT>(std::type_identity<GridT>) {
     using ValueT = typename GridT::ValueType;
-    if (type == GridT::gridType()) size = {sizeof(ValueT), std::is_floating_point_v<ValueT> ? kHalf : sizeof(ValueT)};
+    using Number = typename openvdb::VecTraits<ValueT>::ElementType;
+    if (type != GridT::gridType()) return;
+    size = {sizeof(ValueT),
+            std::is_floating_point_v<Number> ? sizeof(ValueT) / sizeof(Number) * kHalf : sizeof(ValueT)};
   });
   return size;
 }
@@ -217,7 +220,14 @@ class TreeWalk {
 
 }  // namespace
 
-bool isKnownVdbTree(const std::string& type) { return valueSize(type).has_value(); }
+bool isContourableVdbTree(const std::string& type) {
+  bool contourable = false;
+  forEachContourableType(
+      [&]<typename GridT>(std::type_identity<GridT>) { contourable = contourable || type == GridT::gridType(); });
+  return contourable;
+}
+
+bool isSampledVdbTree(const std::string& type) { return valueSize(type).has_value(); }
 
 void checkVdbTree(ByteReader& bytes, const VdbTreeFormat& format) {
   const auto size = valueSize(format.type);

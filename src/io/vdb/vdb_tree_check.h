@@ -15,7 +15,10 @@ struct VdbTreeFormat {
 };
 
 /// True for the trees that can be checked and contoured: those of ContourableGrids.
-[[nodiscard]] bool isKnownVdbTree(const std::string& type);
+[[nodiscard]] bool isContourableVdbTree(const std::string& type);
+
+/// True for the trees that can be checked: those of SampledGrids.
+[[nodiscard]] bool isSampledVdbTree(const std::string& type);
 
 /// Walks through the tree at the reader's position as OpenVDB's reader would, and leaves the position after it.
 ///

@@ -11,13 +11,22 @@ namespace pdc::detail {
 using ContourableGrids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
                                            openvdb::Int64Grid, openvdb::BoolGrid>;
 
-/// Calls visit(std::type_identity<GridT>) for each of them, in order.
-template <typename Visit>
-void forEachContourableType(Visit&& visit) {
+/// The types of grids whose values can be sampled at vertices: those, and vectors.
+using SampledGrids = ContourableGrids::Append<openvdb::Vec3SGrid, openvdb::Vec3DGrid, openvdb::Vec3IGrid>;
+
+/// Calls visit(std::type_identity<GridT>) for each type of a list, in order.
+template <typename Grids, typename Visit>
+void forEachGridType(Visit&& visit) {
   const auto visitAll = [&]<typename... GridT>(openvdb::TypeList<GridT...>) {
     (visit(std::type_identity<GridT>{}), ...);
   };
-  visitAll(ContourableGrids{});
+  visitAll(Grids{});
+}
+
+/// Likewise for those that can be contoured.
+template <typename Visit>
+void forEachContourableType(Visit&& visit) {
+  forEachGridType<ContourableGrids>(visit);
 }
 
 /// Calls visit(grid) with the grid's own type. \returns false, without a call, for a grid that cannot be contoured.
@@ -26,16 +35,20 @@ bool visitContourable(const openvdb::GridBase& grid, Visit&& visit) {
   return grid.apply<ContourableGrids>(visit);
 }
 
-/// The value types, as errors name them: "float, …, int64 and bool".
-inline std::string contourableTypeNames() {
+/// The value types of a list, as errors name them: "float, …, int64 and bool".
+template <typename Grids>
+std::string gridTypeNames() {
   std::string names;
-  std::size_t left = ContourableGrids::Size;
-  forEachContourableType([&]<typename GridT>(std::type_identity<GridT>) {
+  std::size_t left = Grids::Size;
+  forEachGridType<Grids>([&]<typename GridT>(std::type_identity<GridT>) {
     names += openvdb::typeNameAsString<typename GridT::ValueType>();
     --left;
     names += left > 1 ? ", " : left == 1 ? " and " : "";
   });
   return names;
 }
+
+/// Those that can be contoured.
+inline std::string contourableTypeNames() { return gridTypeNames<ContourableGrids>(); }
 
 }  // namespace pdc::detail

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pdc/error.h"
+#include "sample/vdb/index_place.h"
 
 namespace pdc {
 namespace {
@@ -15,8 +16,8 @@ template <typename Grid>
 std::function<double(const Vec3d&)> functionOf(std::shared_ptr<const Grid> grid) {
   // The tree itself, since accessors are for one thread.
   return [grid = std::move(grid)](const Vec3d& p) {
-    const openvdb::Vec3d at = grid->transform().worldToIndex({p.x, p.y, p.z});
-    return static_cast<double>(openvdb::tools::BoxSampler::sample(grid->tree(), at));
+    const openvdb::Vec3d place = detail::indexPlace(grid->transform(), p);
+    return static_cast<double>(openvdb::tools::BoxSampler::sample(grid->tree(), place));
   };
 }
 

@@ -19,9 +19,10 @@ constexpr std::size_t kMaskBytes = 4096;
 template <typename Grid>
 typename Grid::Ptr smallGrid() {
   auto grid = Grid::create();
-  grid->tree().root().addTile({8192, 0, 0}, 1, true);
-  grid->tree().setValue({1, 2, 3}, 1);
-  grid->tree().setValue({-4000, 0, 0}, 1);
+  const typename Grid::ValueType one(1);
+  grid->tree().root().addTile({8192, 0, 0}, one, true);
+  grid->tree().setValue({1, 2, 3}, one);
+  grid->tree().setValue({-4000, 0, 0}, one);
   return grid;
 }
 
@@ -68,7 +69,7 @@ TEST_F(VdbTreeCheck, WalksToTheEndOfWhatOpenVdbWrites) {
       const auto expectWalked = [&](openvdb::GridBase& grid) {
         grid.setSaveFloatAsHalf(half);
         const VdbTreeFormat format{.type = grid.type(), .compression = compression, .half = half};
-        ASSERT_TRUE(isKnownVdbTree(format.type)) << format.type;
+        ASSERT_TRUE(isSampledVdbTree(format.type)) << format.type;
         EXPECT_EQ(errorOfTree(bytesOf(grid, compression), format), "") << format.type << ' ' << compression << half;
       };
       expectWalked(*smallGrid<openvdb::FloatGrid>());
@@ -76,6 +77,9 @@ TEST_F(VdbTreeCheck, WalksToTheEndOfWhatOpenVdbWrites) {
       expectWalked(*smallGrid<openvdb::Int32Grid>());
       expectWalked(*smallGrid<openvdb::Int64Grid>());
       expectWalked(*smallGrid<openvdb::BoolGrid>());
+      expectWalked(*smallGrid<openvdb::Vec3SGrid>());
+      expectWalked(*smallGrid<openvdb::Vec3DGrid>());
+      expectWalked(*smallGrid<openvdb::Vec3IGrid>());
       expectWalked(*sphere());
       expectWalked(*openvdb::FloatGrid::create());
     }
@@ -84,8 +88,10 @@ TEST_F(VdbTreeCheck, WalksToTheEndOfWhatOpenVdbWrites) {
 
 TEST_F(VdbTreeCheck, RefusesFormatsThatItDoesNotKnow) {
   const std::string bytes = bytesOf(*smallGrid<openvdb::FloatGrid>(), kNone);
-  EXPECT_FALSE(isKnownVdbTree("Tree_vec3s_5_4_3"));
-  EXPECT_EQ(errorOfTree(bytes, {.type = "Tree_vec3s_5_4_3"}), "trees of type Tree_vec3s_5_4_3 cannot be read");
+  EXPECT_FALSE(isContourableVdbTree("Tree_vec3s_5_4_3"));
+  EXPECT_TRUE(isContourableVdbTree("Tree_float_5_4_3"));
+  EXPECT_FALSE(isSampledVdbTree("Tree_vec2s_5_4_3"));
+  EXPECT_EQ(errorOfTree(bytes, {.type = "Tree_vec2s_5_4_3"}), "trees of type Tree_vec2s_5_4_3 cannot be read");
   EXPECT_EQ(errorOfTree(bytes, {.type = "Tree_float_5_4_3", .compression = 8}), "compression 0x8 is unknown");
 }
 

@@ -22,8 +22,9 @@ void checkMeshPath(const std::filesystem::path& path);
 /// its properties in their order and types, vectors as NAME_x NAME_y NAME_z NAME_w; int or, above 2^31 vertices, uint
 /// indices), .obj (shortest decimal that reads back to the same float; v, vn, f), and .stl and .off through OpenMesh.
 /// Quads come before triangles, and those before polygons; in .stl all are triangles. Only .ply holds properties; the
-/// others leave them out. An origin that is not zero is a comment "pdc_origin X Y Z" in .ply, .obj and .off, and stands
-/// in the header or the first line of .stl; coordinates are relative to it.
+/// others leave them out, but for colours in .obj: where "red", "green" and "blue" are bytes they follow the
+/// coordinates, as 0 to 1, which many programs read. An origin that is not zero is a comment "pdc_origin X Y Z" in
+/// .ply, .obj and .off, and stands in the header or the first line of .stl; coordinates are relative to it.
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed and whatever stood under the name stays.

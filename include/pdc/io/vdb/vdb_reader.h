@@ -33,4 +33,18 @@ struct VdbGridInfo {
 /// name and for a type that cannot be contoured.
 [[nodiscard]] openvdb::GridBase::Ptr readVdbGrid(const std::filesystem::path& path, const std::string& name = "");
 
+/// A grid of a file, by what its table of contents says.
+struct VdbGridName {
+  std::string name, valueType;  ///< As in VdbGridInfo.
+  bool contourable = false;     ///< As there.
+  bool sampled = false;         ///< Whether readVdbAttribute() takes it.
+};
+
+/// The names of all grids of a file, in file order. No values are read. \throws Error as listVdbGrids().
+[[nodiscard]] std::vector<VdbGridName> listVdbNames(const std::filesystem::path& path);
+
+/// One grid whose values may be sampled, as gridAttribute() does: of a type that can be contoured, or of vectors of
+/// three floats, doubles or int32. Otherwise as readVdbGrid(), but that the name must not be empty.
+[[nodiscard]] openvdb::GridBase::Ptr readVdbAttribute(const std::filesystem::path& path, const std::string& name);
+
 }  // namespace pdc
