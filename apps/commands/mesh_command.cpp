@@ -6,11 +6,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <future>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "extract/contour_memory.h"
 #include "files/json_file.h"
+#include "files/mesh_attributes.h"
 #include "files/mesh_file.h"
 #include "io/file/suffix.h"
 #include "mesh/components.h"
@@ -28,7 +32,7 @@ namespace {
 
 void warn(MeshRun& run, const std::string& message) {
   run.warnings.push_back(message);
-  printWarning(message);
+  printWarning(run.frame + message);
 }
 
 void checkSurface(const MeshRequest& request, const Input& input, const Mesh& mesh, MeshRun& run) {
@@ -101,18 +105,26 @@ void checkSpecks(const Mesh& mesh, MeshRun& run) {
                      specks, sizes.size(), kMostVertices));
 }
 
-Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
+/// An input, and how long it took to read.
+struct ReadInput {
+  Input input;
+  double seconds;
+};
+
+ReadInput readInput(const MeshRequest& request) {
   detail::Stopwatch stopwatch;
-  const Input input = [&] {
-    const ExitOnInterrupt scope;
-    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
-    return openInput(request.input, request.inputOptions());
-  }();
-  run.secondsRead = stopwatch.lap();
+  Input input = openInput(request.input, request.inputOptions());
+  return {std::move(input), stopwatch.lap()};
+}
+
+Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
+  const Input& input = read.input;
+  run.secondsRead = read.seconds;
   if (input.refusedNoise > 0)
     warn(run,
          fmt::format("{} values of the noise grids are negative or not finite; they count as 0", input.refusedNoise));
   for (const std::string& warning : input.warnings) warn(run, warning);
+  checkAttributes(input, request.ownProperties());
   run.meaning = input.meaning;
   run.crossingsWithoutData = input.crossingsWithoutData;
   run.iso = input.iso;
@@ -123,6 +135,7 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
     run.options.adaptive = request.adaptive->value * (request.adaptive->suffixed ? input.source->map().voxelSize() : 1);
   run.options.adaptiveScale = input.adaptiveScale;
 
+  detail::Stopwatch stopwatch;
   checkForecast(request, input, run);
   Mesh mesh;
   {
@@ -130,6 +143,7 @@ Mesh makeMesh(const MeshRequest& request, MeshRun& run) {
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
     mesh = contour(*input.source, run.options, &run.contour, {.progress = show, .stop = &interruptFlag()});
   }
+  addAttributes(input, mesh);
   run.secondsContour = stopwatch.lap();
   checkSurface(request, input, mesh, run);
   checkPrecision(input, mesh, run);
@@ -194,28 +208,134 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
              run.secondsContour, run.secondsWrite);
 }
 
-}  // namespace
-
-void runMesh(const MeshRequest& request) {
-  checkMeshRequest(request);
-  if (request.adaptiveGrid && !request.adaptive) throw CLI::ValidationError("--adaptive-grid", "needs --adaptive");
-  checkMeshPath(request.output);
-  checkJsonPath(request.json);
-
-  MeshRun run;
+/// Contours what was read and writes the mesh.
+void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   detail::Stopwatch total;
-  const Mesh mesh = makeMesh(request, run);
+  const Mesh mesh = makeMesh(request, read, run);
   run.vertices = mesh.positions.size();
   run.quads = mesh.quads.size();
   run.triangles = mesh.triangles.size();
   run.origin = mesh.origin;
+  run.properties = propertiesJson(mesh.properties);
+  const std::string lost = lostProperties(mesh, request.output);
+  if (!lost.empty()) warn(run, fmt::format("{}: only .ply files hold {}", request.output.string(), lost));
 
   detail::Stopwatch stopwatch;
   run.bytesWritten = writeMeshFile(mesh, request.output,
                                    {.ascii = request.ascii, .doublePrecision = request.doublePrecision}, request.quiet);
   run.secondsWrite = stopwatch.lap();
-  run.secondsTotal = total.lap();
+  run.secondsTotal = run.secondsRead + total.lap();
+}
 
+void checkRequest(const MeshRequest& request) {
+  checkMeshRequest(request);
+  if (request.adaptiveGrid && !request.adaptive) throw CLI::ValidationError("--adaptive-grid", "needs --adaptive");
+  checkMeshPath(request.output);
+  checkJsonPath(request.json);
+}
+
+/// The reports of a sequence's frames, a line for each; those for standard output are printed as they come.
+class FrameReports {
+ public:
+  explicit FrameReports(std::filesystem::path path) : mPath(std::move(path)) {}
+
+  void add(nlohmann::ordered_json report, int frame) {
+    nlohmann::ordered_json line{{"frame", frame}};
+    line.update(report);
+    mLines += jsonLine(line) + "\n";
+    if (mPath != "-") return;
+    writeText(mLines, mPath);
+    std::fflush(stdout);
+    mLines.clear();
+  }
+  void finish() const {
+    if (mPath != "-") writeText(mLines, mPath);
+  }
+
+ private:
+  const std::filesystem::path mPath;
+  std::string mLines;
+};
+
+/// What a sequence did, by numbers of frames.
+struct FrameCounts {
+  std::size_t done = 0, failed = 0;
+};
+
+/// Contours frames that are there, each while the next is read.
+FrameCounts runThere(const std::vector<int>& numbers, const std::vector<MeshRequest>& frames, FrameReports& reports) {
+  const auto begin = [&](std::size_t i) {
+    return std::async(std::launch::async, [&frame = frames[i]] { return readInput(frame); });
+  };
+  FrameCounts counts;
+  std::future<ReadInput> next;
+  if (!frames.empty()) next = begin(0);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    std::future<ReadInput> now = std::move(next);
+    now.wait();
+    if (i + 1 < frames.size()) next = begin(i + 1);
+    MeshRun run;
+    run.frame = fmt::format("frame {}: ", numbers[i]);
+    try {
+      const ReadInput read = now.get();
+      contourAndWrite(frames[i], read, run);
+      reports.add(toJson(frames[i], run), numbers[i]);
+      ++counts.done;
+      if (!frames[i].quiet && frames[i].json != "-")
+        fmt::print("{}{}: {} vertices, {}; {:.2f} s\n", run.frame, frames[i].output.string(), run.vertices,
+                   facesText(run), run.secondsTotal);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::exception& error) {
+      std::fputs(fmt::format("pdc: {}{}\n", run.frame, error.what()).c_str(), stderr);
+      reports.add({{"input", frames[i].input.string()}, {"error", error.what()}}, numbers[i]);
+      ++counts.failed;
+    }
+  }
+  return counts;
+}
+
+void runFrames(const MeshRequest& request) {
+  const FrameNames inputs(request.input.string(), "INPUT"), outputs(request.output.string(), "OUTPUT");
+  // Files appear when they are complete, and reading cannot be asked to stop.
+  const ExitOnInterrupt scope;
+  FrameReports reports(request.json);
+  std::vector<int> numbers;
+  std::vector<MeshRequest> frames;
+  for (const int number : request.frames->numbers()) {
+    MeshRequest frame = request;
+    frame.input = inputs.of(number);
+    frame.output = outputs.of(number);
+    if (frames.empty()) checkRequest(frame);
+    if (std::filesystem::exists(frame.input)) {
+      numbers.push_back(number);
+      frames.push_back(std::move(frame));
+      continue;
+    }
+    printWarning(fmt::format("frame {}: '{}' is not there", number, frame.input.string()));
+    reports.add({{"input", frame.input.string()}, {"missing", true}}, number);
+  }
+  if (frames.empty()) throw Error(fmt::format("'{}': no frame is there", request.input.string()));
+  const FrameCounts counts = runThere(numbers, frames, reports);
+  reports.finish();
+  if (counts.failed > 0) throw Error(fmt::format("{} of {} frames failed", counts.failed, frames.size()));
+}
+
+}  // namespace
+
+void runMesh(const MeshRequest& request) {
+  if (request.frames) {
+    runFrames(request);
+    return;
+  }
+  checkRequest(request);
+  MeshRun run;
+  const ReadInput read = [&] {
+    const ExitOnInterrupt scope;
+    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
+    return readInput(request);
+  }();
+  contourAndWrite(request, read, run);
   writeJson(toJson(request, run), request.json);
   if (!request.quiet && request.json != "-") printSummary(request, run);
 }

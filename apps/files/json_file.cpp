@@ -30,9 +30,16 @@ void checkJsonReplaces(const std::filesystem::path& json, const std::filesystem:
 }
 
 void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path) {
-  if (path.empty()) return;
   // File names need not be UTF-8; JSON has to be.
-  const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  writeText(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
+}
+
+std::string jsonLine(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void writeText(const std::string& text, const std::filesystem::path& path) {
+  if (path.empty()) return;
   if (path == "-") {
     fmt::print("{}", text);
     return;

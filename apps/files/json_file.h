@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace pdc {
 
@@ -17,5 +18,11 @@ void checkJsonReplaces(const std::filesystem::path& json, const std::filesystem:
 /// Writes to a file, which appears only when it is complete, or to standard output for "-"; does nothing for an empty
 /// path.
 void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path);
+
+/// A report in one line, without its end.
+[[nodiscard]] std::string jsonLine(const nlohmann::ordered_json& json);
+
+/// Writes text likewise, as it is.
+void writeText(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace pdc

@@ -59,6 +59,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
+          {"properties", run.properties},
           {"adaptive", adaptiveJson(request, run)},
           {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
           {"median_sigma_n", run.contour.medianSigmaNormal},

@@ -24,8 +24,10 @@ struct MeshRun {
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   Vec3d origin{};  ///< See Mesh::origin.
+  nlohmann::ordered_json properties;
   double secondsRead = 0, secondsContour = 0, secondsWrite = 0, secondsTotal = 0;
   std::vector<std::string> warnings;
+  std::string frame;  ///< Begins each warning that is printed: "frame 7: " of a sequence.
 };
 
 /// "auto" where it comes from the data, "inf", or a number.

@@ -98,6 +98,7 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
   addGridMeaning(command, request, grids);
   addNoiseGrids(command, request, grids);
   addAdaptiveGrid(command, request, grids);
+  addAttribute(command, request, grids);
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -132,9 +133,18 @@ InputOptions MeshRequest::inputOptions() const {
           .floodFill = floodFill,
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
+          .attributes = attributes,
+          .allAttributes = allAttributes,
           .adaptiveGrid = adaptiveGrid,
           .voxelSize = voxelSize,
           .resolution = resolution};
+}
+
+std::vector<std::string> MeshRequest::ownProperties() const {
+  std::vector<std::string> names;
+  if (confidence) names.insert(names.end(), {"confidence", "sigma"});
+  if (rank) names.push_back("rank");
+  return names;
 }
 
 ContourOptions MeshRequest::contourOptions(std::optional<double> otherSigma) const {
@@ -202,9 +212,33 @@ void addAdaptiveGrid(CLI::App& command, MeshRequest& request, const std::string&
       ->group(group);
 }
 
+void addAttribute(CLI::App& command, MeshRequest& request, const std::string& group) {
+  const auto take = [&request](const std::string& text) {
+    request.allAttributes = text == "all";
+    request.attributes.clear();
+    for (std::size_t begin = 0; !request.allAttributes && begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      if (end == begin) throw CLI::ValidationError("--attribute", fmt::format("'{}' has an empty name", text));
+      request.attributes.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  };
+  command
+      .add_option_function<std::string>("--attribute", take,
+                                        "Grids of the same file whose values the vertices get, in a .ply\n"
+                                        "(of Cd, colours, in an .obj, too); all: all others")
+      ->type_name("NAME,...|all")
+      ->group(group);
+}
+
 void addMeshOptions(CLI::App& command, MeshRequest& request) {
   command.add_option("INPUT", request.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
   command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command
+      .add_option_function<std::string>(
+          "--frames", [&request](const std::string& text) { request.frames = parseFrames(text); },
+          "All of a sequence: INPUT and OUTPUT are patterns like\nsmoke.%04d.vdb; a report is a line per frame")
+      ->type_name("A-B[:STEP]");
   addSurfaceOptions(command, request);
   addInputOptions(command, request);
   const auto group = "Output";
@@ -245,6 +279,7 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       refuseOther(request.adaptiveGrid.has_value(), "--adaptive-grid", ".vdb inputs");
+      refuseOther(request.allAttributes || !request.attributes.empty(), "--attribute", ".vdb inputs");
       break;
     case InputKind::kOther:
       throw Error(

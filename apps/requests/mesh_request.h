@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "files/frame_names.h"
 #include "pdc/extract/contour.h"
 #include "pdc/io/open_input.h"
 #include "terminal/length_option.h"
@@ -20,6 +22,9 @@ struct MeshRequest {
   std::optional<GridClass> gridClass;
   std::optional<InsideValues> inside;
   bool floodFill = false;
+  std::optional<FrameRange> frames;
+  std::vector<std::string> attributes;
+  bool allAttributes = false;  ///< True for --attribute all.
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
@@ -34,6 +39,8 @@ struct MeshRequest {
 
   /// How to read the input.
   [[nodiscard]] InputOptions inputOptions() const;
+  /// What it asks vertices to have besides attributes.
+  [[nodiscard]] std::vector<std::string> ownProperties() const;
   /// How to contour it; `otherSigma`, or σn from the data, holds where the command line does not say sigma.
   [[nodiscard]] ContourOptions contourOptions(std::optional<double> otherSigma) const;
 };
@@ -55,6 +62,9 @@ void addNoiseGrids(CLI::App& command, MeshRequest& request, const std::string& g
 
 /// Declares --adaptive-grid.
 void addAdaptiveGrid(CLI::App& command, MeshRequest& request, const std::string& group);
+
+/// Declares --attribute.
+void addAttribute(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// Declares --class, --inside and --flood-fill.
 void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group);
