@@ -10,6 +10,7 @@
 #include "commands/check_command.h"
 #include "commands/cluster_command.h"
 #include "commands/decimate_command.h"
+#include "commands/grid_command.h"
 #include "commands/info_command.h"
 #include "commands/mesh_command.h"
 #include "commands/render_command.h"
@@ -44,6 +45,9 @@ int run(int argc, char** argv) {
   CLI::App* meshCommand = app.add_subcommand("mesh", "Contour a grid or a scene and write the mesh");
   pdc::addMeshOptions(*meshCommand, mesh);
   meshCommand->footer("Example: pdc mesh part.vdb part.ply --sigma-n 0.02 --json part.json");
+  pdc::MeshRequest grid;
+  CLI::App* gridCommand = app.add_subcommand("grid", "Clip, resample, smooth and combine a grid, and write it");
+  pdc::addGridOptions(*gridCommand, grid);
   pdc::InfoRequest info;
   CLI::App* infoCommand = app.add_subcommand("info", "Say what is in a grid file, a scene or a mesh");
   pdc::addInfoOptions(*infoCommand, info);
@@ -77,6 +81,7 @@ int run(int argc, char** argv) {
     return kDone;
   }
   if (meshCommand->parsed()) pdc::runMesh(mesh);
+  if (gridCommand->parsed()) pdc::runGrid(grid);
   if (infoCommand->parsed()) pdc::runInfo(info);
   if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
   if (renderCommand->parsed()) pdc::runRender(render);

@@ -19,6 +19,7 @@
 #include "io/file/suffix.h"
 #include "mesh/components.h"
 #include "parallel/stopwatch.h"
+#include "parallel/with_threads.h"
 #include "pdc/extract/contour_forecast.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "reports/json_report.h"
@@ -111,10 +112,22 @@ struct ReadInput {
   double seconds;
 };
 
-ReadInput readInput(const MeshRequest& request) {
+ReadInput readInput(const MeshRequest& request, const Monitor& monitor) {
   detail::Stopwatch stopwatch;
-  Input input = openInput(request.input, request.inputOptions());
+  Input input = openInput(request.input, request.inputOptions(), monitor);
   return {std::move(input), stopwatch.lap()};
+}
+
+ReadInput readAndShow(const MeshRequest& request) {
+  const ExitOnInterrupt scope;
+  if (request.steps.empty()) {
+    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
+    return readInput(request, {});
+  }
+  ProgressBar bar(!request.quiet);
+  const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+  return detail::withThreads(request.threads.value_or(0),
+                             [&] { return readInput(request, {.progress = show, .stop = &interruptFlag()}); });
 }
 
 Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
@@ -126,6 +139,7 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   for (const std::string& warning : input.warnings) warn(run, warning);
   checkAttributes(input, request.ownProperties());
   run.meaning = input.meaning;
+  run.steps = input.steps;
   run.crossingsWithoutData = input.crossingsWithoutData;
   run.iso = input.iso;
   run.planeOrigin = input.planeOrigin;
@@ -265,7 +279,8 @@ struct FrameCounts {
 /// Contours frames that are there, each while the next is read.
 FrameCounts runThere(const std::vector<int>& numbers, const std::vector<MeshRequest>& frames, FrameReports& reports) {
   const auto begin = [&](std::size_t i) {
-    return std::async(std::launch::async, [&frame = frames[i]] { return readInput(frame); });
+    return std::async(std::launch::async,
+                      [&frame = frames[i]] { return readInput(frame, {.progress = {}, .stop = &interruptFlag()}); });
   };
   FrameCounts counts;
   std::future<ReadInput> next;
@@ -330,12 +345,7 @@ void runMesh(const MeshRequest& request) {
   }
   checkRequest(request);
   MeshRun run;
-  const ReadInput read = [&] {
-    const ExitOnInterrupt scope;
-    const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
-    return readInput(request);
-  }();
-  contourAndWrite(request, read, run);
+  contourAndWrite(request, readAndShow(request), run);
   writeJson(toJson(request, run), request.json);
   if (!request.quiet && request.json != "-") printSummary(request, run);
 }

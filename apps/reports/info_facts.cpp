@@ -1,5 +1,8 @@
 #include "reports/info_facts.h"
 
+#include "io/vdb/grid_warnings.h"
+#include "pdc/error.h"
+#include "pdc/grid/describe_grid.h"
 #include "pdc/io/open_input.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
@@ -37,9 +40,35 @@ Json toJson(const VdbGridInfo& grid) {
   return facts;
 }
 
+/// What helps to choose an isovalue and steps. Values of other types than float and double are not looked at, and a
+/// grid that cannot be read as a volume is no failure here.
+void describe(const std::filesystem::path& path, const VdbGridInfo& grid, Json& facts) {
+  if (!(grid.valueType == "float" || grid.valueType == "double") || grid.activeVoxels == 0) return;
+  try {
+    const GridDescription d = describeGrid(readVdbGrid(path, grid.name));
+    facts["read_as"] = nameOf(d.meaning.gridClass);
+    facts["inside"] = nameOf(d.meaning.inside);
+    facts["iso"] = d.meaning.iso;
+    facts["slope"] = d.meaning.slope;
+    facts["half_width_voxels"] = d.meaning.halfWidth;
+    facts["non_finite"] = d.nonFinite;
+    facts["parts"] = d.parts;
+    facts["cavities"] = d.cavities;
+    facts["noise_voxels"] = d.noise;
+    facts["histogram"] = d.histogram;
+    for (const std::string& line : detail::gridWarnings(d.meaning, detail::OptionStyle::kProgram))
+      facts["doubts"].push_back(line);
+  } catch (const Error& error) {
+    facts["doubts"].push_back(error.what());
+  }
+}
+
 Json gridFacts(const std::filesystem::path& path) {
   Json facts{{"kind", "grids"}, {"grids", Json::array()}};
-  for (const VdbGridInfo& grid : listVdbGrids(path)) facts["grids"].push_back(toJson(grid));
+  for (const VdbGridInfo& grid : listVdbGrids(path)) {
+    facts["grids"].push_back(toJson(grid));
+    describe(path, grid, facts["grids"].back());
+  }
   return facts;
 }
 

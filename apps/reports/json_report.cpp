@@ -35,6 +35,20 @@ nlohmann::ordered_json sigmaNormalJson(const std::optional<double>& sigma) {
   return std::isinf(*sigma) ? Json("inf") : Json(*sigma);
 }
 
+nlohmann::ordered_json toJson(const std::vector<GridStepReport>& steps) {
+  Json list = Json::array();
+  for (const GridStepReport& step : steps) {
+    list.push_back({{"name", step.name},
+                    {"parameter", step.parameter},
+                    {"voxels_before", step.voxelsBefore},
+                    {"voxels_after", step.voxelsAfter}});
+    if (step.name != "keep" && step.name != "fill-cavities") continue;
+    list.back()["parts_before"] = step.partsBefore;
+    list.back()["parts_after"] = step.partsAfter;
+  }
+  return list;
+}
+
 nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
@@ -60,6 +74,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
           {"properties", run.properties},
+          {"steps", toJson(run.steps)},
           {"adaptive", adaptiveJson(request, run)},
           {"sigma_n", sigmaNormalJson(run.options.sigmaNormal)},
           {"median_sigma_n", run.contour.medianSigmaNormal},

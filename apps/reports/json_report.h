@@ -21,6 +21,7 @@ struct MeshRun {
   std::size_t crossingsWithoutData = 0;  ///< See Input.
   std::size_t verticesOnBox = 0;         ///< Where a scene's solid is cut off.
   std::optional<GridMeaning> meaning;    ///< See Input.
+  std::vector<GridStepReport> steps;     ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   Vec3d origin{};  ///< See Mesh::origin.
@@ -32,6 +33,9 @@ struct MeshRun {
 
 /// "auto" where it comes from the data, "inf", or a number.
 [[nodiscard]] nlohmann::ordered_json sigmaNormalJson(const std::optional<double>& sigma);
+
+/// What was done to a grid, one after the other.
+[[nodiscard]] nlohmann::ordered_json toJson(const std::vector<GridStepReport>& steps);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run);
 

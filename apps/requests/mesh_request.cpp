@@ -136,6 +136,8 @@ InputOptions MeshRequest::inputOptions() const {
           .attributes = attributes,
           .allAttributes = allAttributes,
           .adaptiveGrid = adaptiveGrid,
+          .steps = loadGridSteps(steps, input, acceptNonFinite.value_or(false), open),
+          .meshToLevelSet = steps.meshToLevelSet,
           .voxelSize = voxelSize,
           .resolution = resolution};
 }
@@ -241,6 +243,7 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("A-B[:STEP]");
   addSurfaceOptions(command, request);
   addInputOptions(command, request);
+  addGridSteps(command, request.steps, "For .vdb inputs, before all else, in this order");
   const auto group = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
   addPlaceOptions(command, request, group);
@@ -269,6 +272,9 @@ void checkMeshRequest(const MeshRequest& request) {
       checkNoiseGrid(request, "--sigma-grid", request.sigmaGrid);
       checkNoiseGrid(request, "--weight-grid", request.weightGrid);
       checkNoiseGrid(request, "--adaptive-grid", request.adaptiveGrid);
+      refuseOther(request.steps.meshToLevelSet.has_value(), "--mesh-to-level-set", "meshes");
+      refuseOther(!request.steps.empty() && request.sigmaGrid, "--sigma-grid", "grids without steps");
+      refuseOther(!request.steps.empty() && request.weightGrid, "--weight-grid", "grids without steps");
       break;
     case InputKind::kScene:
       refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
@@ -280,8 +286,10 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
       refuseOther(request.adaptiveGrid.has_value(), "--adaptive-grid", ".vdb inputs");
       refuseOther(request.allAttributes || !request.attributes.empty(), "--attribute", ".vdb inputs");
+      refuseOther(!request.steps.empty(), "a step on grids", ".vdb inputs");
       break;
     case InputKind::kOther:
+      if (request.steps.meshToLevelSet) break;
       throw Error(
           fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
   }

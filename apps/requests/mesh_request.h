@@ -9,6 +9,7 @@
 #include "files/frame_names.h"
 #include "pdc/extract/contour.h"
 #include "pdc/io/open_input.h"
+#include "requests/grid_steps_request.h"
 #include "terminal/length_option.h"
 
 namespace pdc {
@@ -25,6 +26,7 @@ struct MeshRequest {
   std::optional<FrameRange> frames;
   std::vector<std::string> attributes;
   bool allAttributes = false;  ///< True for --attribute all.
+  GridStepsRequest steps;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
@@ -37,7 +39,7 @@ struct MeshRequest {
   std::size_t maxMemory = 0;  ///< Bytes; 0: what the machine has.
   bool confidence = false, rank = false, requireSurface = false, quiet = false;
 
-  /// How to read the input.
+  /// How to read the input, and what is done to a grid. \throws Error where steps name files that cannot be read.
   [[nodiscard]] InputOptions inputOptions() const;
   /// What it asks vertices to have besides attributes.
   [[nodiscard]] std::vector<std::string> ownProperties() const;

@@ -107,6 +107,7 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addGridMeaning(command, mesh, "OPTIONS");
   addNoiseGrids(command, mesh, "OPTIONS");
   addAdaptiveGrid(command, mesh, "OPTIONS");
+  addGridSteps(command, mesh.steps, "For .vdb inputs, before all else, in this order");
   command
       .add_option("--reference", request.reference,
                   "What the surface should be, a mesh or a scene\n(a scene that is swept is its own)")

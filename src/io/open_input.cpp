@@ -38,6 +38,7 @@ void checkSceneOptions(const fs::path& path, const InputOptions& options) {
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
   refuseOther(options.adaptiveGrid.has_value(), path, "an adaptive grid", grids);
   refuseOther(options.allAttributes || !options.attributes.empty(), path, "an attribute", grids);
+  refuseOther(!options.steps.empty(), path, "what is done to grids", grids);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
   if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
     throw Error(fmt::format("the resolution must be from 1 to {}, not {}", kMaxVoxelsPerAxis, *options.resolution));
@@ -89,6 +90,40 @@ void readAttributes(const fs::path& path, const InputOptions& options, Input& in
       throw Error(fmt::format("the attribute '{}' is named twice", name));
     input.attributes.push_back({name, readVdbAttribute(path, name)});
   }
+}
+
+/// A grid and what came of the steps. Without steps readMeaning() has the file's own grid, and all that it doubts.
+Input openProcessed(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
+  checkGridOptions(path, options);
+  const auto single = "grids without steps";
+  refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", single);
+  refuseOther(options.weightGrid.has_value(), path, "a weight grid", single);
+  const auto vdb = ".vdb inputs";
+  refuseOther(options.meshToLevelSet && options.adaptiveGrid, path, "an adaptive grid", vdb);
+  refuseOther(options.meshToLevelSet && (options.allAttributes || !options.attributes.empty()), path, "an attribute",
+              vdb);
+  ProcessedGrid processed = processGrid(path, processOptions(options), monitor);
+  const GridVolume& volume = processed.volume;
+  auto source = std::make_unique<GridSource>(volume.grid, GridSourceOptions{.iso = volume.iso,
+                                                                            .open = options.open,
+                                                                            .acceptNonFinite = options.acceptNonFinite,
+                                                                            .hermite = options.hermite,
+                                                                            .gridClass = volume.gridClass,
+                                                                            .inside = volume.inside});
+  Input input;
+  input.iso = source->iso();
+  input.planeOrigin = source->usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
+  input.valueNoise = source->valueNoise();
+  input.meaning = source->meaning();
+  input.steps = std::move(processed.steps);
+  input.warnings = std::move(processed.warnings);
+  input.whyEmpty = [iso = input.iso] { return fmt::format("the grid has no surface at iso {} after the steps", iso); };
+  input.source = std::move(source);
+  if (options.meshToLevelSet) return input;
+  if (const auto scale = readCompanion(path, options.adaptiveGrid, *volume.grid, "adaptive"))
+    input.adaptiveScale = gridFunction(scale);
+  readAttributes(path, options, input);
+  return input;
 }
 
 Input openGrid(const fs::path& path, const InputOptions& options) {
@@ -169,10 +204,22 @@ std::string_view planeOriginName(PlaneOrigin origin) {
   return "";
 }
 
-Input openInput(const fs::path& path, const InputOptions& options) {
+ProcessGridOptions processOptions(const InputOptions& options) {
+  return {.grid = options.grid.value_or(""),
+          .settle = {.meaning = {.iso = options.iso,
+                                 .gridClass = options.gridClass,
+                                 .inside = options.inside,
+                                 .floodFill = options.floodFill},
+                     .acceptNonFinite = options.acceptNonFinite},
+          .steps = options.steps,
+          .meshToLevelSet = options.meshToLevelSet};
+}
+
+Input openInput(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
+  if (options.meshToLevelSet) return openProcessed(path, options, monitor);
   switch (inputKind(path)) {
     case InputKind::kGrid:
-      return openGrid(path, options);
+      return options.steps.empty() ? openGrid(path, options) : openProcessed(path, options, monitor);
     case InputKind::kScene:
       return openScene(path, options);
     case InputKind::kOther:

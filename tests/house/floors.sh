@@ -8,7 +8,7 @@ cd "$1"
 # Names that no folder has yet are reserved for what comes: points (reconstruction) above extract, tile above io.
 declare -A floor_of=(
   [parallel]=0 [math]=1 [mesh]=2 [rays]=3 [simplify]=3 [smooth]=3 [subdivide]=3 [field]=4 [sample]=5 [extract]=6 [render]=6
-  [points]=7 [io]=8 [study]=9 [tile]=9
+  [grid]=7 [points]=7 [io]=8 [study]=9 [tile]=9
 )
 readonly ground=-1 apps=10
 # By folder within a floor. Rooms of one rank do not know each other.
@@ -17,6 +17,7 @@ declare -A room_of=(
   [simplify]=0 [simplify/clustering]=1 [simplify/error_bound]=1 [simplify/pair_contraction]=1 [simplify/decimation]=2
   [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/vdb]=2
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
+  [grid]=0 [grid/description]=1
   [field]=0 [field/primitives]=1 [field/operators]=1
   [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/scene]=2 [io]=4
   [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps]=5

@@ -11,6 +11,7 @@
 
 #include "pdc/extract/contour.h"
 #include "pdc/field/field.h"
+#include "pdc/io/process_grid.h"
 #include "pdc/sample/hermite_source.h"
 #include "pdc/sample/vdb/grid_source.h"
 
@@ -40,6 +41,10 @@ struct InputOptions {
   std::vector<std::string> attributes{};
   bool allAttributes = false;  ///< All further grids that can be sampled, in file order; then `attributes` is empty.
   std::optional<std::string> adaptiveGrid{};  ///< A float or double grid of the same file, of any transform.
+
+  GridSteps steps{};  ///< What is done to the grid first; excludes σ and weight grids.
+  /// The file is a mesh instead, whose level set is taken.
+  std::optional<MeshToLevelSetOptions> meshToLevelSet{};
 
   // For scenes only; at most one of them. Neither: what the scene says.
   std::optional<double> voxelSize{};  ///< World units, > 0.
@@ -76,6 +81,7 @@ struct Input {
   std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite; they count as 0.
   std::size_t crossingsWithoutData = 0;  ///< See GridSource.
   std::optional<GridMeaning> meaning{};  ///< How a grid is read, and why. Empty for a scene.
+  std::vector<GridStepReport> steps{};   ///< What was done to the grid.
   /// Where the data may mean something else than it was taken for or makes a poor surface: a line each, which names the
   /// remedy by the program's option.
   std::vector<std::string> warnings{};
@@ -84,10 +90,15 @@ struct Input {
 };
 
 /// Reads a .vdb grid or a scene and makes the source that `pdc mesh` contours. A grid is wholly in memory afterwards;
-/// OpenVDB is initialised on the way. Cannot be stopped while OpenVDB reads. \throws Error for another kind of file,
-/// options that go with another kind of input, both a voxel size and a resolution, a σ, weight or adaptive grid or an
-/// attribute without a name or that is the grid itself, an attribute that is named twice; whatever readVdbGrid(),
-/// readVdbAttribute(), gridFunction(), GridSource, readScene() and FieldSource throw.
-[[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {});
+/// OpenVDB is initialised on the way. The monitor is that of the steps; nothing can be stopped while OpenVDB reads.
+/// \throws Error for another kind of file, options that go with another kind of input, both a voxel size and a
+/// resolution, a σ, weight or adaptive grid or an attribute without a name or that is the grid itself, a σ or weight
+/// grid with steps, an attribute that is named twice; whatever processGrid(), readVdbGrid(), readVdbAttribute(),
+/// gridFunction(), GridSource, readScene() and FieldSource throw.
+[[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {},
+                              const Monitor& monitor = {});
+
+/// What processGrid() takes of these options.
+[[nodiscard]] ProcessGridOptions processOptions(const InputOptions& options);
 
 }  // namespace pdc
