@@ -112,7 +112,7 @@ class Chain {
     if (kind == 3) m.preScale(openvdb::Vec3d(1, 2, 0.3));
     if (kind == 4) m.preShear(openvdb::math::X_AXIS, openvdb::math::Y_AXIS, 0.5);
     if (kind == 5) m.postTranslate(openvdb::Vec3d(1e7, 0, -1e5));
-    if (kind == 6) m.preScale(openvdb::Vec3d(1, 1, 1e-7));
+    if (kind == 6) m.preScale(openvdb::Vec3d(1, 1, 1e-3));
     if (kind == 7)
       return openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd(openvdb::Vec3d(-12), openvdb::Vec3d(12)),
                                                               0.6, 10 * mUnit, mUnit);
@@ -122,7 +122,9 @@ class Chain {
 
   openvdb::GridBase::Ptr anyGrid() { return one(4) ? makeGrid<openvdb::DoubleGrid>() : makeGrid<openvdb::FloatGrid>(); }
 
-  double length() { return mUnit * pick({0.5, 1.0, 2.0, 3.3, 0.2, 12.0, 1e-6, 1e9}); }
+  double length() { return mUnit * pick({0.5, 1.0, 2.0, 3.3, 12.0, 1e-6, 1e9}); }
+  /// Moves take long: they go half a voxel at a time.
+  double distance() { return mUnit * pick({0.3, 1.0, 2.0, 3.3, 1e-6, 1e9}); }
 
   GridSteps makeSteps() {
     GridSteps steps;
@@ -146,8 +148,8 @@ class Chain {
       steps.smooth = SmoothOptions{.filter = pick({SmoothFilter::kMean, SmoothFilter::kGaussian, SmoothFilter::kMedian,
                                                    SmoothFilter::kCurvature}),
                                    .radius = length()};
-    if (wanted("offset")) steps.offset = length() * pick({-1, 1});
-    if (wanted("open-close")) steps.openClose = length();
+    if (wanted("offset")) steps.offset = distance() * pick({-1, 1});
+    if (wanted("open-close")) steps.openClose = distance();
     if (wanted("combine"))
       steps.combine.push_back({.kind = pick({CombineKind::kUnion, CombineKind::kIntersect, CombineKind::kSubtract}),
                                .other = settleGrid(anyGrid(), {.acceptNonFinite = true}),
