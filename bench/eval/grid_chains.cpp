@@ -112,7 +112,8 @@ class Chain {
     if (kind == 3) m.preScale(openvdb::Vec3d(1, 2, 0.3));
     if (kind == 4) m.preShear(openvdb::math::X_AXIS, openvdb::math::Y_AXIS, 0.5);
     if (kind == 5) m.postTranslate(openvdb::Vec3d(1e7, 0, -1e5));
-    if (kind == 6) m.preScale(openvdb::Vec3d(1, 1, 1e-3));
+    // OpenVDB takes determinants of 1e-15 for zero.
+    if (kind == 6) m.preScale(openvdb::Vec3d(1, 1, mUnit < 1e-3 ? 0.1 : 1e-3));
     if (kind == 7)
       return openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd(openvdb::Vec3d(-12), openvdb::Vec3d(12)),
                                                               0.6, 10 * mUnit, mUnit);
