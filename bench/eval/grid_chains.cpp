@@ -146,9 +146,9 @@ class Chain {
                                        .method = pick({ResampleMethod::kBest, ResampleMethod::kBest,
                                                        ResampleMethod::kTrilinear, ResampleMethod::kQuadratic})};
     if (wanted("smooth"))
-      steps.smooth = SmoothOptions{.filter = pick({SmoothFilter::kMean, SmoothFilter::kGaussian, SmoothFilter::kMedian,
-                                                   SmoothFilter::kCurvature}),
-                                   .radius = length()};
+      steps.smooth = SmoothGridOptions{.filter = pick({SmoothFilter::kMean, SmoothFilter::kGaussian,
+                                                       SmoothFilter::kMedian, SmoothFilter::kCurvature}),
+                                       .radius = length()};
     if (wanted("offset")) steps.offset = distance() * pick({-1, 1});
     if (wanted("open-close")) steps.openClose = distance();
     if (wanted("combine"))
