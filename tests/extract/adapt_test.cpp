@@ -190,7 +190,9 @@ TEST(AdaptiveContour, LeavesWhatHasNoDistanceAsItIs) {
   for (const Vec3f& p : mesh.positions) places.insert({p.x, p.y, p.z});
   for (std::size_t v = 0; v < stays.size(); ++v) {
     const Vec3f& p = full.positions[v];
-    if (stays[v] != 0) EXPECT_TRUE(places.contains({p.x, p.y, p.z})) << v;
+    if (stays[v] != 0) {
+      EXPECT_TRUE(places.contains({p.x, p.y, p.z})) << v;
+    }
   }
   EXPECT_LT(trianglesOf(mesh), 0.7 * static_cast<double>(trianglesOf(full)));
 }

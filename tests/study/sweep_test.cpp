@@ -73,8 +73,10 @@ TEST(SweepSigma, RecommendationForANoisyLevelSetIsWithinAStepOfTheLowestTrueErro
   for (const auto& [hermite, noise] :
        {Case{HermiteMode::kGradient, 0.1}, Case{HermiteMode::kGradient, 0.2}, Case{HermiteMode::kAuto, 0.1}}) {
     const GridSource source(test::noisyLevelSet(0.05, noise, 1), {.hermite = hermite});
-    const Sweep blind = sweepSigma(source, kSigmas, {});
-    const Sweep knowing = sweepSigma(source, kSigmas, {.contour = {}, .truth = truth});
+    SweepOptions options;
+    const Sweep blind = sweepSigma(source, kSigmas, options);
+    options.truth = truth;
+    const Sweep knowing = sweepSigma(source, kSigmas, options);
     ASSERT_TRUE(blind.recommended && knowing.recommended);
     EXPECT_LE(stepsToLowest(knowing, *blind.recommended), 1) << noise << " " << blind.reason;
     EXPECT_EQ(trueError(knowing.steps[*knowing.recommended]), lowestError(knowing)) << knowing.reason;
