@@ -93,7 +93,9 @@ TEST(SweepSigma, FlatCurvesRecommendNothing) {
 
 TEST(SweepSigma, MeasuresOfAnExactPart) {
   const FieldSource source = exactPart();
-  const Sweep sweep = sweepSigma(source, {0, kInfinity}, {.contour = {}, .truth = truthOf(source)});
+  SweepOptions options;
+  options.truth = truthOf(source);
+  const Sweep sweep = sweepSigma(source, {0, kInfinity}, options);
   const SweepStep &sharp = sweep.steps[0], &blunt = sweep.steps[1];
   EXPECT_LT(*sharp.vertexRms, 0.02);
   EXPECT_LT(*sharp.creaseRms, 0.06);
@@ -141,7 +143,9 @@ TEST(SweepInputs, ErrorsOfASphereFallWithTheVoxelSize) {
 
 TEST(SweepAdaptive, MeshesAreThoseOfContour) {
   const FieldSource source = exactPart(0.1);
-  const SweepOptions options{.contour = {.sigmaNormal = 0.05}, .truth = truthOf(source)};
+  SweepOptions options;
+  options.contour.sigmaNormal = 0.05;
+  options.truth = truthOf(source);
   const Sweep sweep = sweepAdaptive(source, {0, 0.05, 0.25}, options);
   ASSERT_EQ(sweep.steps.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
