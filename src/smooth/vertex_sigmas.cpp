@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kGrain = 1024;
 
-/// Of a vertex with more triangles no more are looked at, or each of its neighbours would look at all of them.
+/// No more triangles of a vertex are looked at, or each of its neighbours would look at all of them.
 constexpr std::size_t kMostCorners = 32;
 
 /// The median difference of angle defects from their median, in radians, for noise of one mean edge if it grew with its

@@ -118,7 +118,7 @@ void markSharp(const Mesh& mesh, double creaseAngle, HalfEdges& result) {
 }
 
 /// What both kinds of refinement have in common: the edges that old ones are cut into, and what lies at their middles.
-/// Of edge e the half at the origin of its lower half-edge is 2e, the other one 2e + 1.
+/// Edge e becomes 2e, at the origin of its lower half-edge, and 2e + 1.
 HalfEdges startRefined(const HalfEdges& mesh, int sides, std::size_t faces, std::size_t innerEdges) {
   HalfEdges r;
   r.sides = sides;

@@ -18,7 +18,7 @@ struct LimitSurface {
   std::size_t estimatedCurvatures = 0;                 ///< See SubdivideReport.
 };
 
-/// Of Gaussians: the linear scheme's limit in the dual space, whose derivatives the map back takes to those of the
+/// Gaussians have the linear scheme's limit in the dual space, and the map back takes its derivatives to those of the
 /// surface (Preiner et al. 2019, appendix B). \param mesh triangles, or quads, by the scheme. \param progress advances
 /// by the number of vertices. \throws Cancelled.
 template <typename Value>

@@ -82,7 +82,7 @@ TEST_F(SweepCommand, ReportsWhatIsKnown) {
   EXPECT_NE(report["command"].get<std::string>().find("pdc sweep " + mScene), std::string::npos);
   EXPECT_NE(mSaid.find("sigma_n = 0 has the lowest true error"), std::string::npos) << mSaid;
   for (const char* file : {"/sweep.csv", "/index.html"}) EXPECT_GT(readFile(mOut + file).size(), 100u);
-  // Of a grid nothing is known, unless a reference says it.
+  // Nothing is known of a grid, unless a reference says it.
   const std::string bullet = bulletGrid();
   EXPECT_TRUE(sweep({"--sigma-n", "0.05"}, bullet)["steps"][0]["vertex_rms"].is_null());
   const std::string mesh = mFolder / "mesh.ply";

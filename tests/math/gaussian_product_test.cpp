@@ -126,7 +126,7 @@ TEST(GaussianCurve, StraightensWithLessAnisotropy) {
   EXPECT_LT(before, 1e-14);
 }
 
-/// Of flat covariances far from the origin nothing is lost; the dual space loses eight digits.
+/// Flat covariances far from the origin lose nothing; the dual space loses eight digits.
 TEST(GaussianSum, KeepsItsDigitsFarAway) {
   const Vec3d far{1e6, -3e6, 2e6};
   const SymMat3<double> flat = outer(Vec3d{1, 2, 2} * (1.0 / 3)) * -0.99999;

@@ -169,7 +169,7 @@ TEST(Subdivide, FollowsAffineMaps) {
   EXPECT_LT(largestDifference(moved, placesOf(mesh, ownCovariances(3, kCatmullClark))), 1e-11);
 }
 
-/// Of what is flat to 1 : 1e-5 nothing is lost a thousand sizes away from the origin.
+/// What is flat to 1 : 1e-5 loses nothing a thousand sizes away from the origin.
 TEST(Subdivide, FlatCovariancesKeepTheirDigitsFarFromTheOrigin) {
   Mesh mesh = octahedron();
   setVertexCovariances(mesh, randomCovariances(mesh.positions.size(), 1e-5, 11));

@@ -14,7 +14,7 @@
 namespace pdc::detail {
 namespace {
 
-/// Of collapses and faces in a parallel loop.
+/// So many collapses are one piece of a parallel loop.
 constexpr std::size_t kGrain = 32;
 
 /// Whether other triangles can be asked whether they intersect it.
