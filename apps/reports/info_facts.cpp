@@ -89,7 +89,7 @@ Json sceneFacts(const std::filesystem::path& path) {
   return facts;
 }
 
-/// Those of a covariance mesh; null where a property of them is missing.
+/// What a covariance mesh holds; null for a mesh that lacks one of its properties.
 Json covarianceFacts(const Mesh& mesh) {
   for (const char* name : kCovarianceNames)
     if (const VertexProperty* property = mesh.property(name); property == nullptr || property->components != 1)

@@ -59,9 +59,9 @@ struct HalfEdges {
   }
 };
 
-/// Those of a mesh whose vertices all have faces. \throws Error for a mesh without faces, a face that names a vertex
-/// twice, an edge of more than two faces or of two that run the same way, and a vertex whose faces form several fans.
-/// \param creaseAngle in degrees; edges whose faces turn by more are sharp; 180 for none.
+/// Makes the half-edges of a mesh whose vertices all have faces. \throws Error for a mesh without faces, a face that
+/// names a vertex twice, an edge of more than two faces or of two that run the same way, and a vertex whose faces form
+/// several fans. \param creaseAngle in degrees; edges whose faces turn by more are sharp; 180 for none.
 [[nodiscard]] HalfEdges makeHalfEdges(const Mesh& mesh, double creaseAngle);
 
 /// What there is after so many steps of refinement, in doubles because it may exceed any integer.

@@ -61,7 +61,7 @@ SecondMasks loopSecond() {
   return {{-2, {1, 0, 0, 1, 0, 0}}, {-1, {0.5, 0.5, -0.5, 0.5, 0.5, -0.5}}, {-2, {0, 1, 0, 0, 1, 0}}};
 }
 
-// Those of the bicubic B-spline.
+// These are the second derivatives of the bicubic B-spline.
 SecondMasks catmullClarkSecond() {
   constexpr double k = 1.0 / 6;
   return {{-8 * k, {4 * k, -2 * k, 4 * k, -2 * k}, {k, k, k, k}},

@@ -120,7 +120,7 @@ double tenthOnTheLeft(const Vec3d& p) { return p.x < 0 ? 0.1 : 1; }
 
 std::size_t trianglesOf(const Mesh& mesh) { return 2 * mesh.quads.size() + mesh.triangles.size(); }
 
-/// Those faces of a mesh all of whose corners are wanted.
+/// A mesh of the faces all of whose corners are wanted.
 template <typename IsWanted>
 Mesh partOf(const Mesh& mesh, const IsWanted& isWanted) {
   Mesh part;

@@ -21,7 +21,7 @@ struct InferenceOptions {
   /// What is added to the diagonal of the covariance of a face, or of a vertex and its neighbours, which is flat
   /// otherwise: this share of its largest eigenvalue, above 0.
   double bias = 0.05;
-  /// The same in world units squared, σ0² of the paper, in place of a share; above 0.
+  /// Replaces `bias` by what is added as such, in world units squared, σ0² of the paper; above 0.
   std::optional<double> absoluteBias{};
   /// Standard deviation of each component of the unit normals, above 0; for kNormals only.
   double sigmaNormal = 0.1;

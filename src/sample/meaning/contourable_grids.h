@@ -23,7 +23,7 @@ void forEachGridType(Visit&& visit) {
   visitAll(Grids{});
 }
 
-/// Likewise for those that can be contoured.
+/// Calls visit(std::type_identity<GridT>) for each type of grid that can be contoured.
 template <typename Visit>
 void forEachContourableType(Visit&& visit) {
   forEachGridType<ContourableGrids>(visit);
@@ -48,7 +48,7 @@ std::string gridTypeNames() {
   return names;
 }
 
-/// Those that can be contoured.
+/// The value types of grids that can be contoured, as errors name them.
 inline std::string contourableTypeNames() { return gridTypeNames<ContourableGrids>(); }
 
 }  // namespace pdc::detail

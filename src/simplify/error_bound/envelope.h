@@ -30,7 +30,7 @@ class Envelope {
   bool contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used = nullptr) const {
     return contains(triangle, near, used, mDistance);
   }
-  /// Likewise for a smaller distance than the envelope's own.
+  /// Whether all points of a triangle are within a smaller distance than the envelope's own.
   bool contains(const TrianglePoints& triangle, std::uint32_t near, std::vector<std::uint32_t>* used,
                 double distance) const;
 
