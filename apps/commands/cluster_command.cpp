@@ -156,10 +156,7 @@ void runCluster(const ClusterRequest& request) {
   detail::Stopwatch stopwatch;
   const Mesh mesh = clusterWithBar(request, run);
   run.secondsCluster = stopwatch.lap();
-  for (const std::string& warning : warningsOf(run.report)) {
-    run.warnings.push_back(warning);
-    if (!request.quiet) printWarning(warning);
-  }
+  noteWarnings(warningsOf(run.report), request.quiet, run.warnings);
   run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);

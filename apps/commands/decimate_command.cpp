@@ -8,7 +8,6 @@
 #include "files/json_file.h"
 #include "files/mesh_file.h"
 #include "parallel/stopwatch.h"
-#include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/triangulate_polygons.h"
 #include "pdc/mesh/weld_vertices.h"
@@ -17,8 +16,8 @@
 #include "terminal/choice_option.h"
 #include "terminal/interrupt.h"
 #include "terminal/length_option.h"
+#include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
-#include "terminal/progress_bar.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -258,20 +257,9 @@ void runDecimate(const DecimateRequest& request) {
   options.maxTurn = request.maxTurn.value_or(options.maxTurn);
   options.fit = !request.noFit;
   options.boundaryWeight = request.boundaryWeight.value_or(options.boundaryWeight);
-  try {
-    ProgressBar bar(!request.quiet);
-    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-    mesh = detail::withThreads(request.threads.value_or(0), [&] {
-      return decimate(mesh, options, &run.report, {.progress = show, .stop = &interruptFlag()});
-    });
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", request.input.string(), error.what()));
-  }
+  mesh = makeWithBar(request, [&](const Monitor& monitor) { return decimate(mesh, options, &run.report, monitor); });
   run.secondsDecimate = stopwatch.lap();
-  for (const std::string& warning : warningsOf(request, run)) {
-    run.warnings.push_back(warning);
-    if (!request.quiet) printWarning(warning);
-  }
+  noteWarnings(warningsOf(request, run), request.quiet, run.warnings);
   run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);

@@ -10,13 +10,12 @@
 #include "files/json_file.h"
 #include "files/mesh_file.h"
 #include "parallel/stopwatch.h"
-#include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/mesh/triangulate_polygons.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
+#include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
-#include "terminal/progress_bar.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -104,18 +103,6 @@ Mesh readTriangles(const SmoothRequest& request, SmoothRun& run) {
   return std::move(file.mesh);
 }
 
-Mesh smoothWithBar(const Mesh& mesh, const SmoothRequest& request, SmoothRun& run) {
-  try {
-    ProgressBar bar(!request.quiet);
-    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-    return detail::withThreads(request.threads.value_or(0), [&] {
-      return smooth(mesh, run.options, &run.report, {.progress = show, .stop = &interruptFlag()});
-    });
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", request.input.string(), error.what()));
-  }
-}
-
 }  // namespace
 
 void addSmoothOptions(CLI::App& command, SmoothRequest& request) {
@@ -161,12 +148,9 @@ void runSmooth(const SmoothRequest& request) {
   detail::Stopwatch stopwatch;
   Mesh mesh = readTriangles(request, run);
   run.secondsRead = stopwatch.lap();
-  mesh = smoothWithBar(mesh, request, run);
+  mesh = makeWithBar(request, [&](const Monitor& monitor) { return smooth(mesh, run.options, &run.report, monitor); });
   run.secondsSmooth = stopwatch.lap();
-  for (const std::string& warning : warningsOf(run.report)) {
-    run.warnings.push_back(warning);
-    if (!request.quiet) printWarning(warning);
-  }
+  noteWarnings(warningsOf(run.report), request.quiet, run.warnings);
   run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);

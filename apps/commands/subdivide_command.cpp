@@ -10,14 +10,13 @@
 #include "files/json_file.h"
 #include "files/mesh_file.h"
 #include "parallel/stopwatch.h"
-#include "parallel/with_threads.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "terminal/busy_sign.h"
 #include "terminal/choice_option.h"
 #include "terminal/interrupt.h"
+#include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
-#include "terminal/progress_bar.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -219,20 +218,9 @@ void runSubdivide(const SubdivideRequest& request) {
   options.levels = request.levels.value_or(options.levels);
   options.covariances = inferenceOf(request);
   options.limit = hasLimit(request);
-  try {
-    ProgressBar bar(!request.quiet);
-    const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-    mesh = detail::withThreads(request.threads.value_or(0), [&] {
-      return subdivide(mesh, options, &run.report, {.progress = show, .stop = &interruptFlag()});
-    });
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", request.input.string(), error.what()));
-  }
+  mesh = makeWithBar(request, [&](const Monitor& monitor) { return subdivide(mesh, options, &run.report, monitor); });
   run.secondsSubdivide = stopwatch.lap();
-  for (const std::string& warning : warningsOf(request, run)) {
-    run.warnings.push_back(warning);
-    if (!request.quiet) printWarning(warning);
-  }
+  noteWarnings(warningsOf(request, run), request.quiet, run.warnings);
   run.bytesWritten = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   run.secondsWrite = stopwatch.lap();
   writeJson(toJson(request, run), request.json);
