@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "apps/program.h"
+#include "folders.h"
 
 namespace pdc::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path inputs() { return fs::path(PDC_DATA_DIR).parent_path() / "faults"; }
+fs::path inputs() { return dataFolder().parent_path() / "faults"; }
 
 /// A file, what is asked for, and what comes of it.
 struct FieldInput {

@@ -8,6 +8,7 @@
 
 #include "apps/grid_files.h"
 #include "apps/program.h"
+#include "folders.h"
 
 namespace pdc::test {
 namespace {
@@ -150,7 +151,7 @@ TEST(InfoCommand, ComparesMeshesOnly) {
 }
 
 TEST(InfoCommand, SceneFacts) {
-  const Json facts = infoOf(std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml");
+  const Json facts = infoOf(sourceFolder() / "scenes/csg.yaml");
   EXPECT_EQ(facts["kind"], "scene");
   for (int axis = 0; axis < 3; ++axis) {
     const double side = facts["box_hi"][axis].get<double>() - facts["box_lo"][axis].get<double>();

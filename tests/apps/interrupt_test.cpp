@@ -4,14 +4,14 @@
 #include <string>
 
 #include "apps/program.h"
+#include "folders.h"
 
 namespace pdc::test {
 namespace {
 
 // Far more cells than can be contoured in the time before the signal.
 Arguments longWork(const TemporaryFolder& folder) {
-  return {"mesh", std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml", folder / "out.ply", "--quiet", "--resolution",
-          "4000"};
+  return {"mesh", sourceFolder() / "scenes/csg.yaml", folder / "out.ply", "--quiet", "--resolution", "4000"};
 }
 
 TEST(Interrupt, StopsWithinASecondAndLeavesNothing) {

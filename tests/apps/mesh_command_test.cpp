@@ -7,6 +7,7 @@
 
 #include "apps/grid_files.h"
 #include "apps/program.h"
+#include "folders.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/mesh_report.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string demoScene() { return std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml"; }
+std::string demoScene() { return sourceFolder() / "scenes/csg.yaml"; }
 
 class MeshCommand : public ::testing::Test {
  protected:

@@ -7,6 +7,7 @@
 
 #include "apps/grid_files.h"
 #include "apps/program.h"
+#include "folders.h"
 
 namespace pdc::test {
 namespace {
@@ -100,8 +101,8 @@ TEST_F(MeshFrames, BadPatternsAndRangesAreRefusedInOneLine) {
 }
 
 TEST_F(MeshFrames, StopAtOnceAndLeaveNothingHalfWritten) {
-  static_cast<void>(mFolder.write("large.1.yaml", readFile(std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml")));
-  static_cast<void>(mFolder.write("large.2.yaml", readFile(std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml")));
+  static_cast<void>(mFolder.write("large.1.yaml", readFile(sourceFolder() / "scenes/csg.yaml")));
+  static_cast<void>(mFolder.write("large.2.yaml", readFile(sourceFolder() / "scenes/csg.yaml")));
   const auto before = mFolder.entries();
   const Outcome outcome = runPdc({"mesh", mFolder / "large.%d.yaml", mFolder / "large.%d.ply", "--frames", "1-2",
                                   "--quiet", "--resolution", "4000"},

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "folders.h"
+
 namespace pdc::test {
 namespace {
 
@@ -108,6 +110,6 @@ std::string readFile(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::filesystem::path bulletGrid() { return std::filesystem::path(PDC_SOURCE_DIR) / "tests/data/mpm_bullet.vdb"; }
+std::filesystem::path bulletGrid() { return sourceFolder() / "tests/data/mpm_bullet.vdb"; }
 
 }  // namespace pdc::test

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "apps/program.h"
+#include "folders.h"
 
 namespace pdc::test {
 namespace {
@@ -50,7 +51,7 @@ std::string shownBy(const Arguments& arguments, double seconds) {
 }
 
 Arguments longWork(const TemporaryFolder& folder) {
-  return {"mesh", std::string(PDC_SOURCE_DIR) + "/scenes/csg.yaml", folder / "out.ply", "--resolution", "1500"};
+  return {"mesh", sourceFolder() / "scenes/csg.yaml", folder / "out.ply", "--resolution", "1500"};
 }
 
 TEST(Progress, HasARateAndTheTimeLeft) {

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "field/field_checks.h"
+#include "folders.h"
 #include "pdc/error.h"
 #include "pdc/field/primitives.h"
 
@@ -263,7 +264,7 @@ TEST(GridField, RefusesWhatItCannotRead) {
 }
 
 TEST(GridField, ReadsARealLevelSet) {
-  const auto path = std::filesystem::path(PDC_DATA_DIR) / "vdb" / "ovdb_sphere.vdb";
+  const auto path = test::dataFolder() / "vdb" / "ovdb_sphere.vdb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
   openvdb::initialize();
   openvdb::io::File file(path.string());

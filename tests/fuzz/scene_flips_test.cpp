@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "folders.h"
 #include "fuzz/forked.h"
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 TEST(SceneFlips, DamagedScenesGiveASoundMeshOrAnError) {
   std::vector<fs::path> scenes;
-  for (const auto& entry : fs::directory_iterator(fs::path(PDC_SOURCE_DIR) / "scenes"))
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() / "scenes"))
     if (entry.path().extension() == ".yaml") scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
   ASSERT_FALSE(scenes.empty());

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "folders.h"
 #include "pdc/extract/contour.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
@@ -26,7 +27,7 @@ struct Row {
 
 class NoiseSweep : public testing::Test {
  protected:
-  NoiseSweep() : mScene(readScene(PDC_SOURCE_DIR "/scenes/noise_minus_sphere.yaml")), mVoxel(mScene.voxelSize) {}
+  NoiseSweep() : mScene(readScene(test::sourceFolder() / "scenes/noise_minus_sphere.yaml")), mVoxel(mScene.voxelSize) {}
 
   [[nodiscard]] Mesh mesh(double sigma, ContourReport* report = nullptr) const {
     const FieldSource source(mScene.field, {.box = mScene.box, .voxelSize = mVoxel});

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "folders.h"
 #include "pdc/extract/contour.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/mesh/mesh_report.h"
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<std::filesystem::path> sceneFiles() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(PDC_SOURCE_DIR "/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() / "scenes"))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;

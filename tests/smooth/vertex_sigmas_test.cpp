@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "folders.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/smooth/smooth.h"
 #include "simplify/same_bytes.h"
@@ -57,7 +58,7 @@ TEST(VertexSigmas, CleanShapesHaveNone) {
 }
 
 TEST(VertexSigmas, TheFanDiskHasNone) {
-  const std::filesystem::path path = std::filesystem::path(PDC_DATA_DIR) / "mesh/fandisk_13k.off";
+  const std::filesystem::path path = test::dataFolder() / "mesh/fandisk_13k.off";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Mesh mesh = readMesh(path);
   EXPECT_EQ(largest(sigmasOf(SmoothedSurface(mesh))), 0);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "folders.h"
 #include "parallel/machine_memory.h"
 #include "parallel/with_threads.h"
 #include "pdc/error.h"
@@ -99,7 +100,7 @@ TEST(Subdivide, GaussianProductsMatchAnotherEvaluation) {
 
 /// Figure 7 of Preiner et al. 2019, as the authors' own program makes it.
 TEST(Subdivide, TweetyMatchesAnotherEvaluation) {
-  const std::filesystem::path file = std::filesystem::path(PDC_DATA_DIR) / "mesh/tweety.off";
+  const std::filesystem::path file = test::dataFolder() / "mesh/tweety.off";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   const Mesh mesh = readMesh(file);
   NaiveMesh naive = naiveGaussians(mesh, naiveFaceCovariances(pointsOf(mesh), facesOf(mesh), 0.05));

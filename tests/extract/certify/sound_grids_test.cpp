@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "extract/certify/sound_checks.h"
+#include "folders.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/sample/vdb/grid_source.h"
 
@@ -137,8 +138,8 @@ TEST_F(SoundGrids, AnyAffineTransform) {
 
 // The one that comes with the sources, and others where their folder exists.
 TEST_F(SoundGrids, RealFiles) {
-  std::vector<std::filesystem::path> files{std::filesystem::path(PDC_SOURCE_DIR) / "tests/data/mpm_bullet.vdb"};
-  const std::filesystem::path folder = std::filesystem::path(PDC_DATA_DIR) / "vdb";
+  std::vector<std::filesystem::path> files{test::sourceFolder() / "tests/data/mpm_bullet.vdb"};
+  const std::filesystem::path folder = test::dataFolder() / "vdb";
   if (std::filesystem::exists(folder)) {
     for (const char* name : {"ovdb_icosahedron", "mpm_bullet", "vpt_dragon_affine", "derived_bunny_ls_f32_blosc",
                              "derived_fandisk_ls_half_mask", "derived_wingnut_sdf_zip_unknown", "oiio_sphere_mask"})

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.h"
 #include "io/file/temporary_folder.h"
 #include "io/mesh/read_text.h"
 #include "pdc/error.h"
@@ -40,7 +41,7 @@ class ReadRealMesh : public testing::TestWithParam<Figures> {};
 
 TEST_P(ReadRealMesh, HasTheFiguresOfTheManifest) {
   const Figures& f = GetParam();
-  const fs::path path = fs::path(PDC_DATA_DIR) / "mesh" / f.name;
+  const fs::path path = test::dataFolder() / "mesh" / f.name;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const MeshReport r = analyze(readMesh(path));
   EXPECT_EQ(r.vertices, f.vertices);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.h"
 #include "io/file/temporary_folder.h"
 #include "pdc/error.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kScenes = fs::path(PDC_SOURCE_DIR) / "scenes";
+const fs::path kScenes = test::sourceFolder() / "scenes";
 
 /// A scene of which only the shape matters; it stands on line 3, indented by two.
 std::string withShape(std::string shape) {
@@ -329,7 +330,7 @@ TEST(SceneReader, ReadsTheExamplesOfItsReadme) {
   // Beside a link to the tests' data, as the examples' relative paths have it.
   const TemporaryFolder folder;
   fs::create_directory(folder / "scenes");
-  fs::create_directory_symlink(fs::path(PDC_SOURCE_DIR) / "tests", folder / "tests");
+  fs::create_directory_symlink(test::sourceFolder() / "tests", folder / "tests");
   const fs::path file = folder.path() / "scenes" / "example.yaml";
   const std::vector<std::string> blocks = yamlBlocks(kScenes / "README.md");
   EXPECT_EQ(blocks.size(), 2u + 13 + 10);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "folders.h"
 #include "io/vdb/vdb_files.h"
 
 namespace pdc {
@@ -283,7 +284,7 @@ class RealVdb : public testing::TestWithParam<RealGrid> {};
 
 TEST_P(RealVdb, HasTheFiguresOfTheManifest) {
   const RealGrid& expected = GetParam();
-  const fs::path path = fs::path(PDC_DATA_DIR) / "vdb" / expected.file;
+  const fs::path path = test::dataFolder() / "vdb" / expected.file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto infos = listVdbGrids(path);
   const auto info = std::find_if(infos.begin(), infos.end(), [&](const auto& i) { return i.name == expected.name; });
@@ -336,7 +337,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(RealVdbFile, TruncatedIsAnError) {
-  const fs::path path = fs::path(PDC_DATA_DIR) / "vdb/damaged/truncated.vdb";
+  const fs::path path = test::dataFolder() / "vdb/damaged/truncated.vdb";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   EXPECT_NE(errorOfListing(path).find("ends early"), std::string::npos);
   EXPECT_NE(errorOfReading(path), "");

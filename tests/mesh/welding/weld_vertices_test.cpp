@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "folders.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/mesh/mesh_report.h"
 #include "simplify/shapes.h"
@@ -170,7 +171,7 @@ TEST(WeldVertices, OneFaceIsNoSoup) {
 // Parts whose vertices differ by rounding, so that reading, which welds equal positions, leaves cracks.
 TEST(WeldVertices, RealPartsBecomeClosed) {
   for (const char* const name : {"cad_featuretype.stl", "cad_angle_block.stl"}) {
-    const std::filesystem::path path = std::filesystem::path(PDC_DATA_DIR) / "mesh" / name;
+    const std::filesystem::path path = test::dataFolder() / "mesh" / name;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
     Mesh mesh = readMesh(path);
     EXPECT_GT(analyze(mesh).boundaryEdges, 0u) << name;

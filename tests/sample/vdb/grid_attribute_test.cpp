@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "folders.h"
 #include "pdc/error.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/sample/vdb/grid_function.h"
@@ -152,7 +153,7 @@ TEST(GridFunction, IsTheSampledValueAnywhere) {
 }
 
 TEST(GridAttribute, ReadsTheColoursOfARealFile) {
-  const std::filesystem::path path = std::filesystem::path(PDC_DATA_DIR) / "vdb/oiio_sphere_cd_vec3s.vdb";
+  const std::filesystem::path path = test::dataFolder() / "vdb/oiio_sphere_cd_vec3s.vdb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto grid = openvdb::gridPtrCast<openvdb::Vec3SGrid>(readVdbAttribute(path, "Cd"));
   ASSERT_NE(grid, nullptr);
