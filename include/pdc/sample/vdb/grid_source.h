@@ -5,17 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "pdc/sample/hermite_mode.h"
 #include "pdc/sample/hermite_source.h"
 #include "pdc/sample/meaning/grid_meaning.h"
 
 namespace pdc {
-
-/// Where a grid's planes come from.
-enum class HermiteMode {
-  kAuto,      ///< kDistance where the grid holds distances: see GridSource.
-  kGradient,  ///< Each crossing's plane from the gradient there, whatever the values mean.
-  kDistance,  ///< Beside creases, from the distances and gradients of the voxels around: see GridSource.
-};
 
 struct GridSourceOptions {
   /// Isovalue in the grid's own units; finite. Default: 0 for level sets, 0.5 for fog volumes and booleans.
