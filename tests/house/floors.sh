@@ -15,7 +15,7 @@ readonly ground=-1 apps=10
 declare -A room_of=(
   [mesh]=0 [mesh/welding]=1 [mesh/polygons]=1 [mesh/intersections]=1 [mesh/local]=1 [mesh/reports]=2
   [simplify]=0 [simplify/clustering]=1 [simplify/error_bound]=1 [simplify/pair_contraction]=1 [simplify/decimation]=2
-  [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/dense]=2 [sample/vdb]=2
+  [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/stencils]=2 [sample/dense]=3 [sample/vdb]=3
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
   [grid]=0 [grid/description]=1
   [field]=0 [field/primitives]=1 [field/operators]=1

@@ -10,22 +10,9 @@
 #include <limits>
 #include <vector>
 
+#include "sample/meaning/value_range.h"
+
 namespace pdc::detail {
-
-/// The least and the largest of finite values; low > high if there were none.
-struct ValueRange {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-
-  void add(double v) {
-    if (!std::isfinite(v)) return;
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  void add(const ValueRange& other) {
-    low = std::min(low, other.low);
-    high = std::max(high, other.high);
-  }
-};
 
 /// The range of a leaf's active values.
 template <typename LeafT>

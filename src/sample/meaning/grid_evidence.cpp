@@ -4,29 +4,19 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include "sample/meaning/active_values.h"
 #include "sample/meaning/contourable_grids.h"
 #include "sample/meaning/grid_meaning.h"
+#include "sample/meaning/slope_sample.h"
 
 namespace pdc::detail {
 namespace {
 
 constexpr std::size_t kSampledLeaves = 64;
-/// A sample of fewer slopes says nothing.
-constexpr std::size_t kLeastSlopes = 32;
-/// Values as near as this to the end of a band stand for all beyond.
-constexpr double kAtEnd = 1e-3;
-
-/// \returns 0 if there are too few to say something.
-double median(std::vector<double> values) {
-  if (values.size() < kLeastSlopes) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// What the sampled leaves say.
 template <typename LeafT>
@@ -36,7 +26,7 @@ class LeafSample {
 
   void addValues(const LeafT& leaf) {
     mRange.add(rangeOf(leaf));
-    const double beyond = (1 + kAtEnd) * std::abs(mBackground);
+    const double beyond = (1 + kAtBandEnd) * std::abs(mBackground);
     for (int x = 0; x < kSide; ++x) {
       const std::uint64_t active = activeAt(leaf, x);
       mValues += static_cast<std::size_t>(std::popcount(active));
@@ -47,6 +37,7 @@ class LeafSample {
   }
   /// To be called when addValues() was for all leaves.
   void addNeighbours(const LeafT& leaf) {
+    if (!mSlopes) mSlopes.emplace(mRange);
     const openvdb::Coord o = leaf.origin();
     constexpr double kMiddle = 0.5 * (kSide - 1);
     const Mat3d toWorld = inverse(mMap.jacobian({o.x() + kMiddle, o.y() + kMiddle, o.z() + kMiddle})).transposed();
@@ -67,14 +58,7 @@ class LeafSample {
     evidence.high = mRange.high;
     evidence.ends = mEnds;
     if (mValues > 0) evidence.beyondBackground = static_cast<double>(mBeyond) / static_cast<double>(mValues);
-    evidence.slope = median(mSlopes);
-    if (!(evidence.slope > 0)) return;
-    std::vector<double> atZero;
-    for (std::size_t i = 0; i < mSlopes.size(); ++i)
-      if (mSizes[i] < evidence.slope * evidence.voxelSize) atZero.push_back(mSlopes[i]);
-    evidence.slopeAtZero = median(std::move(atZero));
-    for (double& slope : mSlopes) slope = std::abs(slope / evidence.slope - 1);
-    evidence.slopeSpread = median(std::move(mSlopes));
+    if (mSlopes) mSlopes->finish(evidence);
   }
 
  private:
@@ -113,12 +97,6 @@ class LeafSample {
 
   static double value(const LeafT& leaf, int i) { return static_cast<double>(leaf.buffer().data()[i]); }
 
-  /// False for values that are clamped, at one of the ends of what there is.
-  [[nodiscard]] bool isInBand(double v) const {
-    const double margin = kAtEnd * (mRange.high - mRange.low);
-    return v > mRange.low + margin && v < mRange.high - margin;
-  }
-
   void countEnd(const LeafT& leaf, int i, int step) {
     const double v = value(leaf, i), next = value(leaf, i + step);
     if (v != 0 && next != 0 && v == v && next == next) ++mEnds[v > 0][next > 0];
@@ -127,22 +105,21 @@ class LeafSample {
   /// Adds the slope at a point whose neighbours are all active, unless one of them carries none.
   void addSlope(const LeafT& leaf, int i, const Mat3d& toWorld) {
     const double v = value(leaf, i);
-    if (!isInBand(v)) return;
+    if (!mSlopes->isInBand(v)) return;
     Vec3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
       const double below = value(leaf, i - kStep[axis]), above = value(leaf, i + kStep[axis]);
-      if (!isInBand(below) || !isInBand(above)) return;
+      if (!mSlopes->isInBand(below) || !mSlopes->isInBand(above)) return;
       gradient[axis] = 0.5 * (above - below);
     }
-    mSlopes.push_back(length(toWorld * gradient));
-    mSizes.push_back(std::abs(v));
+    mSlopes->add(length(toWorld * gradient), v);
   }
 
   const LatticeMap& mMap;
   double mBackground;
   ValueRange mRange;
   std::size_t mValues = 0, mBeyond = 0;
-  std::vector<double> mSlopes, mSizes;  ///< One of each for every value that has a slope.
+  std::optional<SlopeSample> mSlopes;  ///< Made when the range is known.
   std::array<std::array<std::size_t, 2>, 2> mEnds{};
 };
 

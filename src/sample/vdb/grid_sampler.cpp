@@ -7,44 +7,20 @@
 
 #include "sample/block_hash.h"
 #include "sample/meaning/contourable_grids.h"
-#include "sample/vdb/gradient_stencil.h"
-#include "sample/vdb/isovalue_points.h"
+#include "sample/stencils/block_hermite.h"
+#include "sample/stencils/isovalue_points.h"
 #include "sample/vdb/stencil_reader.h"
 #include "sample/vdb/surface_block_search.h"
 
 namespace pdc::detail {
 namespace {
 
-/// Which values may enter slopes. Finite even where nothing is clamped, so that infinite values are left out.
-SlopeLimits slopeLimits(const GridReading& reading) {
-  constexpr double kMostClamp = 1e38;  // A slope of larger values may not fit into single precision.
-  const double clamp = std::min(reading.clamp, kMostClamp);
-  const double iso = reading.insideIsHigher ? -reading.iso : reading.iso;
-  const double low = -clamp - iso, high = clamp - iso;
-  return {static_cast<float>(low + 1e-6 * std::abs(low)), static_cast<float>(high - 1e-6 * std::abs(high))};
-}
-
-/// Turns the gradients of a map that is not affine, which are in `hermite` in lattice units, into normals.
-template <typename NormalMap>
-void mapNormals(const Coord& block, const EdgeIndex& edges, const NormalMap& normalMap, HermiteBlock& hermite) {
-  edges.forEach([&](int i, int axis, int x, int y, int z) {
-    Vec3d at{8.0 * block[0] + x, 8.0 * block[1] + y, 8.0 * block[2] + z};
-    at[axis] += hermite.t[i];
-    const Vec3d g = normalMap(at) * Vec3d{hermite.nx[i], hermite.ny[i], hermite.nz[i]};
-    const double l = length(g);
-    const Vec3f n = vecCast<float>(l > 0 && std::isfinite(l) ? g * (1 / l) : Vec3d{});
-    hermite.nx[i] = n.x;
-    hermite.ny[i] = n.y;
-    hermite.nz[i] = n.z;
-  });
-}
-
 template <typename GridT>
 class TypedGridSampler final : public GridSampler {
  public:
   using TreeT = typename GridT::TreeType;
 
-  TypedGridSampler(typename GridT::ConstPtr grid, const GridReading& reading)
+  TypedGridSampler(typename GridT::ConstPtr grid, const ValueReading& reading)
       : mGrid(std::move(grid)),
         mReading(reading),
         mReader(reading),
@@ -68,7 +44,7 @@ class TypedGridSampler final : public GridSampler {
     for (std::size_t i = 0; i < count; ++i) {
       monitor.throwIfStopped();
       const std::size_t leaf = i * mTable.size() / count;
-      const double crossings = crossingsWithin(values.read(mTable.leaf(leaf), mTable.values(leaf)));
+      const double crossings = crossingsWithin(insideOf(values.read(mTable.leaf(leaf), mTable.values(leaf))));
       forecast.crossings += crossings;
       forecast.blocks += crossings > 0 ? 1 : 0;
     }
@@ -92,17 +68,7 @@ class TypedGridSampler final : public GridSampler {
   void fillHermite(const SurfaceBlock& block, const LatticeMap& map, HermiteBlock& hermite) const override {
     GradientStencil stencil;
     mStencils.read(block.coord, block.edges, stencil);
-    const auto normalMap = [&map](const Vec3d& x) {
-      // Scaled to lattice units, in which gradients are as large as differences of values.
-      return inverse(map.jacobian(x)).transposed() * map.voxelSize();
-    };
-    if (map.affine()) {
-      fillFromStencil(stencil, block.edges, mLimits, matCast<float>(normalMap({})), hermite);
-    } else {
-      fillFromStencil(stencil, block.edges, mLimits, Mat3f::identity(), hermite);
-      mapNormals(block.coord, block.edges, normalMap, hermite);
-    }
-    placeIsovalueCrossings(stencil, block.signs, block.edges, hermite);
+    fillBlockHermite(stencil, block, mLimits, map, hermite);
   }
 
   [[nodiscard]] std::vector<Coord> someLeaves(std::size_t most) const override {
@@ -117,24 +83,16 @@ class TypedGridSampler final : public GridSampler {
   }
 
  private:
-  /// How many edges of a block change sign, from those between a leaf's own points, which are seven of eight.
-  [[nodiscard]] double crossingsWithin(const typename TreeT::ValueType* values) const {
-    constexpr double kShare = double(kBlockSize - 1) / kBlockSize;
-    constexpr std::uint64_t kLastZ = 0x8080808080808080, kLastY = std::uint64_t{0xFF} << 56;
+  [[nodiscard]] CellMask insideOf(const typename TreeT::ValueType* values) const {
     typename ValueReader<typename TreeT::ValueType>::Remarks ignored;
-    std::uint64_t before = 0;
-    int changes = 0;
-    for (int x = 0; x < kBlockSize; ++x) {
-      const std::uint64_t w = mReader.insideBits(values + kBlockSize * kBlockSize * x, ignored);
-      changes += std::popcount((w ^ w >> 1) & ~kLastZ) + std::popcount((w ^ w >> 8) & ~kLastY);
-      if (x > 0) changes += std::popcount(w ^ before);
-      before = w;
-    }
-    return changes / kShare;
+    CellMask inside;
+    for (int x = 0; x < kBlockSize; ++x)
+      inside.word[x] = mReader.insideBits(values + kBlockSize * kBlockSize * x, ignored);
+    return inside;
   }
 
   typename GridT::ConstPtr mGrid;
-  GridReading mReading;
+  ValueReading mReading;
   ValueReader<typename TreeT::ValueType> mReader;
   LeafTable<TreeT> mTable;
   SlopeLimits mLimits;
@@ -144,7 +102,7 @@ class TypedGridSampler final : public GridSampler {
 }  // namespace
 
 std::unique_ptr<const GridSampler> makeGridSampler(const openvdb::GridBase::ConstPtr& grid,
-                                                   const GridReading& reading) {
+                                                   const ValueReading& reading) {
   std::unique_ptr<const GridSampler> sampler;
   visitContourable(*grid, [&]<typename GridT>(const GridT&) {
     sampler = std::make_unique<TypedGridSampler<GridT>>(openvdb::GridBase::constGrid<GridT>(grid), reading);

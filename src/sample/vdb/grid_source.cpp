@@ -6,49 +6,15 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sample/creases/distance_planes.h"
-#include "sample/creases/distance_probe.h"
 #include "sample/meaning/grid_map.h"
+#include "sample/stencils/known_distances.h"
 #include "sample/vdb/grid_sampler.h"
 #include "sample/vdb/noise_grids.h"
 
 namespace pdc {
-namespace {
-
-/// A median slope this far from one belongs to something else than a distance: exact distances have at most 0.001, with
-/// noise of 0.1 voxel 0.05 to 0.07.
-constexpr double kSlopeError = 0.15;
-
-/// Where surfaces have more texture than this, in voxels, facets look like creases. Level sets of organic meshes whose
-/// facets are as large as a voxel have 0.006 to 0.01, of solids at most 0.001.
-constexpr double kMostTexture = 0.005;
-
-/// Where values are known to have more noise than this, in voxels, one-sided slopes see creases everywhere.
-constexpr double kMostNoise = 0.3;
-
-/// Planes of a block come from samples beyond it too, whose noise is larger where it grows. Without this factor, where
-/// noise grows by 0.004 voxel per voxel, edges were 1 to 2 % less exact.
-constexpr double kBeyond = 1.15;
-
-/// \returns nothing where planes must be taken from crossings.
-std::optional<detail::DistanceModel> chooseDistanceModel(HermiteMode mode, bool mayBeDistance,
-                                                         const detail::GridSampler& sampler, const LatticeMap& map) {
-  const bool asked = mode == HermiteMode::kDistance;
-  if (asked && !map.affine()) throw Error("the distance estimator needs an affine transform");
-  if (mode == HermiteMode::kGradient || !map.affine() || !(asked || mayBeDistance)) return std::nullopt;
-  const Mat3d M = map.jacobian({}) * (1 / map.voxelSize());
-  const auto inVoxels = static_cast<float>(1 / map.voxelSize());
-  const detail::DistanceProbe probe = detail::probeDistances(
-      sampler.someLeaves(detail::kProbeBlocks), inverse(M),
-      [&](const Coord& block, detail::DistanceStencil& stencil) { sampler.readDistances(block, inVoxels, stencil); });
-  if (!asked && !(probe.slopeError <= kSlopeError && probe.texture <= kMostTexture)) return std::nullopt;
-  return detail::DistanceModel{.M = M, .noise = probe.noise, .texture = asked ? 0 : probe.texture};
-}
-
-}  // namespace
 
 struct GridSource::Impl {
-  detail::GridReading reading;
+  detail::ValueReading reading;
   LatticeMap map;
   GridMeaning meaning;
   std::unique_ptr<const detail::GridSampler> sampler;
@@ -69,16 +35,17 @@ GridSource::GridSource(const openvdb::GridBase::ConstPtr& grid, const GridSource
   if (options.open)
     std::erase_if(meaning.doubts,
                   [](GridDoubt d) { return d == GridDoubt::kNotFloodFilled || d == GridDoubt::kCutAtEnd; });
-  const detail::GridReading reading{.iso = meaning.iso,
-                                    .insideIsHigher = meaning.inside == InsideValues::kHigh,
-                                    .open = options.open,
-                                    .acceptNonFinite = options.acceptNonFinite,
-                                    .clamp = readable.clamp};
+  const detail::ValueReading reading{.iso = meaning.iso,
+                                     .insideIsHigher = meaning.inside == InsideValues::kHigh,
+                                     .open = options.open,
+                                     .acceptNonFinite = options.acceptNonFinite,
+                                     .clamp = readable.clamp};
   auto sampler = detail::makeGridSampler(readable.grid, reading);
   LatticeMap map = detail::gridMap(*grid);
   const bool real = grid->isType<openvdb::FloatGrid>() || grid->isType<openvdb::DoubleGrid>();
   const bool mayBeDistance = real && meaning.gridClass == GridClass::kLevelSet;
-  std::optional<detail::DistanceModel> distances = chooseDistanceModel(options.hermite, mayBeDistance, *sampler, map);
+  std::optional<detail::DistanceModel> distances = detail::chooseDistanceModel(
+      options.hermite, mayBeDistance, [&](std::size_t most) { return sampler->someLeaves(most); }, *sampler, map);
   mImpl = std::make_unique<Impl>(Impl{reading, std::move(map), std::move(meaning), std::move(sampler), distances,
                                       detail::NoiseGrids(grid, options)});
 }
@@ -96,13 +63,7 @@ std::optional<SurfaceForecast> GridSource::forecast(const Monitor& monitor) cons
 const LatticeMap& GridSource::map() const { return mImpl->map; }
 
 SourceKnowledge GridSource::knowledge() const {
-  using Noise = SourceKnowledge::Noise;
-  const detail::NoiseGrids& noise = mImpl->noise;
-  return {.exactNormals = false,
-          .allCreases = usesDistances(),
-          .noise = noise.hasSigma() ? Noise::kSigma
-                   : noise.any()    ? Noise::kWeights
-                                    : Noise::kNone};
+  return {.exactNormals = false, .allCreases = usesDistances(), .noise = mImpl->noise.noise().knowledge()};
 }
 
 void GridSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const {
@@ -110,7 +71,7 @@ void GridSource::fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) c
 }
 
 void GridSource::fillNoise(const SurfaceBlock& block, const HermiteBlock& hermite, PlaneNoise& noise) const {
-  mImpl->noise.fill(block.coord, block.edges, hermite, *mImpl->sampler, noise);
+  mImpl->noise.noise().fill(block.coord, block.edges, hermite, *mImpl->sampler, noise);
 }
 
 void GridSource::fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock& hermite,
@@ -119,12 +80,10 @@ void GridSource::fillFeaturePlanes(const SurfaceBlock& block, const HermiteBlock
   const auto read = [&](detail::DistanceStencil& stencil) {
     mImpl->sampler->readDistances(block.coord, static_cast<float>(1 / mImpl->map.voxelSize()), stencil);
   };
-  detail::DistanceModel model = *mImpl->distances;
-  if (mImpl->noise.hasSigma()) {
-    model.noise = kBeyond * mImpl->noise.largestSigma(block.coord, block.edges, hermite) / mImpl->map.voxelSize();
-    if (model.noise > kMostNoise) return;
-  }
-  detail::findFeaturePlanes({block.signs, block.edges, hermite, patches}, model, read, planes);
+  std::optional<detail::DistanceModel> model = mImpl->distances;
+  if (const detail::ValueNoise noise = mImpl->noise.noise(); noise.sigma != nullptr)
+    model = detail::withNoise(*model, noise.largestSigma(block.coord, block.edges, hermite), mImpl->map);
+  if (model) detail::findFeaturePlanes({block.signs, block.edges, hermite, patches}, *model, read, planes);
 }
 
 void GridSource::prefetch(const Coord& block) const { mImpl->sampler->prefetch(block); }

@@ -12,7 +12,8 @@
 
 #include "math/lane_loops.h"
 #include "pdc/sample/hermite_block.h"
-#include "sample/vdb/isovalue_points.h"
+#include "sample/stencils/block_parts.h"
+#include "sample/stencils/isovalue_points.h"
 #include "sample/vdb/leaf_table.h"
 #include "sample/vdb/value_reader.h"
 
@@ -38,9 +39,6 @@ class LeafValues {
  private:
   std::array<ValueT, kCopies ? LeafT::SIZE : 0> mCopy;
 };
-
-/// Where the points of a block lie.
-enum class Side : std::uint8_t { kOutside, kInside, kBoth };
 
 /// Which points of a tree's leaves are inside; see isovalue_points.h for those on the isovalue.
 template <typename TreeT>
@@ -125,15 +123,6 @@ class LeafSigns {
       }
     }
     return points;
-  }
-
-  static Side sideOf(const CellMask& inside) {
-    std::uint64_t any = 0, all = ~std::uint64_t{0};
-    for (const std::uint64_t w : inside.word) {
-      any |= w;
-      all &= w;
-    }
-    return any == 0 ? Side::kOutside : ~all == 0 ? Side::kInside : Side::kBoth;
   }
 
   const Table& mTable;

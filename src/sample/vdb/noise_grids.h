@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "pdc/sample/plane_noise.h"
 #include "pdc/sample/vdb/grid_source.h"
+#include "sample/stencils/value_noise.h"
 #include "sample/vdb/grid_sampler.h"
 
 namespace pdc::detail {
@@ -14,18 +14,12 @@ class NoiseGrids {
   /// \throws Error for a grid that is `grid` itself, has another transform or is not scalar.
   NoiseGrids(const openvdb::GridBase::ConstPtr& grid, const GridSourceOptions& options);
 
-  [[nodiscard]] bool any() const { return mSigma != nullptr || mWeight != nullptr; }
+  /// What to make planes' noise of. Valid as long as this is.
+  [[nodiscard]] ValueNoise noise() const { return {mSigma.get(), mWeight.get()}; }
   /// The values of the weight grid; null if there is none.
   [[nodiscard]] const GridSampler* weight() const { return mWeight.get(); }
-  [[nodiscard]] bool hasSigma() const { return mSigma != nullptr; }
   /// The number of active values that are negative or not finite.
   [[nodiscard]] std::size_t refused() const { return mRefused; }
-
-  /// See HermiteSource::fillNoise. \param values are those of the grid itself.
-  void fill(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite, const GridSampler& values,
-            PlaneNoise& noise) const;
-  /// The largest σ at the block's crossings, in the units of the values. \pre hasSigma()
-  [[nodiscard]] double largestSigma(const Coord& block, const EdgeIndex& edges, const HermiteBlock& hermite) const;
 
  private:
   std::unique_ptr<const GridSampler> open(const openvdb::GridBase::ConstPtr& grid,

@@ -10,7 +10,7 @@
 #include "math/float_lanes.h"
 #include "math/lane_loops.h"
 #include "sample/creases/distance_stencil.h"
-#include "sample/vdb/gradient_stencil.h"
+#include "sample/stencils/gradient_stencil.h"
 #include "sample/vdb/leaf_table.h"
 #include "sample/vdb/value_reader.h"
 #include "sample/vdb/value_rows.h"
@@ -97,7 +97,7 @@ class StencilReader {
             reader.template copy<kAbove>(parts[2].row(row), to + kBlockSize);
           }
       }
-    scaleKnown(scale, stencil);
+    scaleKnown(mLimits, scale, stencil, mLevel);
   }
 
  private:
@@ -114,25 +114,6 @@ class StencilReader {
     }
     return places;
   }();
-
-  /// Scales the values that a slope may be made of, in the rows that were read, and makes the others NaN.
-  void scaleKnown(float scale, DistanceStencil& stencil) const {
-    withSimd(mLevel, [&stencil, scale, low = mLimits.low, high = mLimits.high] {
-      constexpr int kEight = sizeof(Float8) / sizeof(float);
-      const Float8 unknown = Float8{} + std::numeric_limits<float>::quiet_NaN();
-      for (int x = 0; x < DistanceStencil::kPoints; ++x)
-        for (unsigned rows = stencil.rows[x]; rows != 0; rows &= rows - 1) {
-          float* row = &stencil.value[(DistanceStencil::kPoints * x + std::countr_zero(rows)) * kLanes];
-          // In vectors, as g++ unrolls a loop over so few lanes before it can vectorise it.
-          for (int lane = 0; lane < kLanes; lane += kEight) {
-            Float8 v;
-            std::memcpy(&v, row + lane, sizeof v);
-            v = ((v > low) & (v < high)) ? v * scale : unknown;
-            std::memcpy(row + lane, &v, sizeof v);
-          }
-        }
-    });
-  }
 
   const Table& mTable;
   ValueReader<ValueT> mReader;

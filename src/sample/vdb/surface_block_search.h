@@ -10,7 +10,7 @@
 
 #include "pdc/monitor.h"
 #include "pdc/sample/hermite_source.h"
-#include "sample/vdb/block_parts.h"
+#include "sample/stencils/block_parts.h"
 #include "sample/vdb/grid_sampler.h"
 #include "sample/vdb/leaf_signs.h"
 #include "sample/vdb/leaf_table.h"
@@ -32,7 +32,7 @@ class SurfaceBlockSearch {
     const TreeT& tree;
     const Table& table;
     const Reader& reader;
-    const GridReading& reading;
+    const ValueReading& reading;
     const GridSampler* weight;  ///< See GridSampler::surfaceBlocks().
   };
 
@@ -160,17 +160,6 @@ class SurfaceBlockSearch {
     const auto& mask = mTable.leaf(place.leaf).getValueMask();
     for (openvdb::Index w = 0; w < kBlockSize; ++w) m.word[w] = mask.template getWord<std::uint64_t>(w);
     return m;
-  }
-
-  static void dropBlocksWithoutCells(SurfaceBlocks& blocks) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
-      if (blocks.signs[i].cells.none()) continue;
-      blocks.coords[kept] = blocks.coords[i];
-      blocks.signs[kept++] = blocks.signs[i];
-    }
-    blocks.coords.resize(kept);
-    blocks.signs.resize(kept);
   }
 
   const TreeT& mTree;

@@ -11,7 +11,8 @@
 
 #include "field/finite_voxels.h"
 #include "math/float_lanes.h"
-#include "sample/vdb/grid_sampler.h"
+#include "sample/stencils/pack_flags.h"
+#include "sample/stencils/value_reading.h"
 
 namespace pdc::detail {
 
@@ -19,7 +20,7 @@ namespace pdc::detail {
 template <typename ValueT>
 class ValueReader {
  public:
-  explicit ValueReader(const GridReading& r)
+  explicit ValueReader(const ValueReading& r)
       : mIso(r.iso),
         mHigher(r.insideIsHigher),
         mSign(r.insideIsHigher ? -1.0F : 1.0F),
@@ -91,19 +92,6 @@ class ValueReader {
     using Limits = std::numeric_limits<ValueT>;
     return iso >= static_cast<double>(Limits::lowest()) && iso <= static_cast<double>(Limits::max()) &&
            static_cast<double>(static_cast<ValueT>(iso)) == iso;
-  }
-
-  /// Bit i is flag[i], which is 0 or 1.
-  static std::uint64_t packFlags(const std::uint8_t (&flag)[64]) {
-    static_assert(std::endian::native == std::endian::little);
-    std::uint64_t bits = 0;
-    for (int k = 0; k < 8; ++k) {
-      std::uint64_t eight;
-      std::memcpy(&eight, flag + 8 * k, sizeof eight);
-      // Bit i of the product's top byte is byte i of the factor; no two of its terms fall on one bit.
-      bits |= (eight * 0x0102040810204080 >> 56) << 8 * k;
-    }
-    return bits;
   }
 
   double mIso;

@@ -19,7 +19,7 @@ class TileFacesTest : public testing::Test {
   static void SetUpTestSuite() { openvdb::initialize(); }
 
   static std::set<Coord> find(const FloatTree& tree) {
-    const ValueReader<float> reader(GridReading{});
+    const ValueReader<float> reader(ValueReading{});
     std::vector<Coord> blocks;
     TileFaces<FloatTree>(tree, reader).find({}, blocks);
     return {blocks.begin(), blocks.end()};

@@ -4,14 +4,39 @@
 #include <bit>
 #include <cstdint>
 
-#include "pdc/sample/hermite_block.h"
-#include "sample/vdb/leaf_signs.h"
+#include "pdc/sample/hermite_source.h"
 
-/// A block's 9×9×9 points lie in eight places, each a leaf or a tile: part 4dx + 2dy + dz is the place at block +
-/// (dx, dy, dz). The masks below hold a place's 8×8×8 points, bits as in CellMask.
+/// A block's 9×9×9 points lie in eight places, of a tree each a leaf or a tile: part 4dx + 2dy + dz is the place at
+/// block + (dx, dy, dz). The masks below hold a place's 8×8×8 points, bits as in CellMask.
 namespace pdc::detail {
 
 inline constexpr int kBlockParts = 8;
+
+/// Where the points of a block lie.
+enum class Side : std::uint8_t { kOutside, kInside, kBoth };
+
+/// Where a place's own points lie.
+inline Side sideOf(const CellMask& inside) {
+  std::uint64_t any = 0, all = ~std::uint64_t{0};
+  for (const std::uint64_t w : inside.word) {
+    any |= w;
+    all &= w;
+  }
+  return any == 0 ? Side::kOutside : ~all == 0 ? Side::kInside : Side::kBoth;
+}
+
+/// How many edges of a block change sign, from those between a place's own points, which are seven of eight.
+inline double crossingsWithin(const CellMask& inside) {
+  constexpr double kShare = double(kBlockSize - 1) / kBlockSize;
+  constexpr std::uint64_t kLastZ = 0x8080808080808080, kLastY = std::uint64_t{0xFF} << 56;
+  std::uint64_t changes = 0;
+  for (int x = 0; x < kBlockSize; ++x) {
+    const std::uint64_t w = inside.word[x];
+    changes += bitCount((w ^ w >> 1) & ~kLastZ) + bitCount((w ^ w >> 8) & ~kLastY);
+    if (x > 0) changes += bitCount(w ^ inside.word[x - 1]);
+  }
+  return static_cast<double>(changes) / kShare;
+}
 
 /// Where those points of a part lie that are corners of the block's cells.
 inline Side sideOfCorners(const CellMask& inside, int part) {
@@ -65,6 +90,18 @@ inline CellMask cellsWithAllCorners(const std::array<std::uint16_t, kBlockPoints
       cells.word[x] |= std::uint64_t{all & all >> 1 & 0xFF} << 8 * y;
     }
   return cells;
+}
+
+/// Leaves out the blocks none of whose cells takes part.
+inline void dropBlocksWithoutCells(SurfaceBlocks& blocks) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < blocks.coords.size(); ++i) {
+    if (blocks.signs[i].cells.none()) continue;
+    blocks.coords[kept] = blocks.coords[i];
+    blocks.signs[kept++] = blocks.signs[i];
+  }
+  blocks.coords.resize(kept);
+  blocks.signs.resize(kept);
 }
 
 }  // namespace pdc::detail

@@ -1,4 +1,4 @@
-#include "sample/vdb/gradient_stencil.h"
+#include "sample/stencils/gradient_stencil.h"
 
 #include <gtest/gtest.h>
 

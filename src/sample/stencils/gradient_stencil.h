@@ -7,6 +7,7 @@
 #include "pdc/math/mat3.h"
 #include "pdc/math/simd_level.h"
 #include "pdc/sample/hermite_block.h"
+#include "sample/stencils/slope_limits.h"
 
 namespace pdc::detail {
 
@@ -39,11 +40,6 @@ class GradientStencilRows {
   std::size_t mSize = 0;
   unsigned mParts = 0;
   bool mBelow = false;
-};
-
-/// Values strictly between the two may enter a slope; others are clamped or not finite.
-struct SlopeLimits {
-  float low, high;
 };
 
 /// Fills crossings and normals of a block from its points: the crossing where the linear function along the edge is

@@ -5,7 +5,7 @@
 
 #include "pdc/sample/hermite_block.h"
 #include "sample/creases/distance_stencil.h"
-#include "sample/vdb/gradient_stencil.h"
+#include "sample/stencils/gradient_stencil.h"
 
 /// Lattice points whose value is the isovalue. Such a point is outside, unless it lies between two points that are
 /// strictly below it, one step away along an axis: solids that touch in a layer of points leave it there, and are one.

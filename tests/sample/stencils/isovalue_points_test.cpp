@@ -1,4 +1,4 @@
-#include "sample/vdb/isovalue_points.h"
+#include "sample/stencils/isovalue_points.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
