@@ -34,7 +34,8 @@ struct DenseSourceOptions {
   std::optional<VolumeView> sigma{};
   /// How much each value counts beside others, >= 0; see GridSourceOptions::weight.
   std::optional<VolumeView> weight{};
-  /// Points where it is zero or NaN have no data: where the surface is closed they are like points beyond the array.
+  /// Points where the stored number is not above zero have no data: where the surface is closed they are like points
+  /// beyond the array.
   std::optional<VolumeView> mask{};
 };
 
