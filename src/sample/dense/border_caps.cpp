@@ -11,8 +11,8 @@
 namespace pdc::detail {
 namespace {
 
-/// The least σn of creases, as where it comes from the data.
-constexpr float kSigmaNormal = 0.02F;
+/// Caps are exact: with more, vertices are drawn from them by as much as they are drawn to the crossings' mean.
+constexpr float kSigmaNormal = 0.004F;
 /// Normals within 30° of their mean belong to one plane.
 constexpr double kOnePlane = 0.866;
 

@@ -47,9 +47,14 @@ class MeaningReader {
     lookAtSome();
     lookAtFaces();
     const bool mayBeSigned = !(isUnsigned() && mView.slope > 0 && mView.intercept >= 0);
-    if (!mOptions.gridClass && mayBeSigned) lookAtAll();
     if (!mOptions.gridClass && !mayBeSigned) mAsked.gridClass = GridClass::kFogVolume;
     Reading reading = decide();
+    if (!mOptions.gridClass && mayBeSigned && !isClear(reading.meaning)) {
+      lookAtAll();
+      // Where all values are equal they are no background.
+      if (mEvidence.low == mEvidence.high) mAsked.gridClass = GridClass::kFogVolume;
+      reading = decide();
+    }
     if (isSignedFog(reading.meaning)) {
       mAsked.gridClass = GridClass::kFogVolume;
       mExtra.push_back(GridDoubt::kClassUnclear);
@@ -86,6 +91,12 @@ class MeaningReader {
     std::sort(meaning.doubts.begin(), meaning.doubts.end());
     meaning.doubts.erase(std::unique(meaning.doubts.begin(), meaning.doubts.end()), meaning.doubts.end());
     return result;
+  }
+
+  /// Distances of both signs are a level set whatever the range of all values is.
+  [[nodiscard]] bool isClear(const GridMeaning& meaning) const {
+    return meaning.gridClass == GridClass::kLevelSet && mEvidence.low < 0 && mEvidence.high > 0 &&
+           std::ranges::find(meaning.doubts, GridDoubt::kClassUnclear) == meaning.doubts.end();
   }
 
   /// Values of both signs that are no distances, but measurements.

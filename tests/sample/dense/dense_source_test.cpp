@@ -127,7 +127,7 @@ TEST(DenseSourceTest, LinesLongerThanARunAreReadWhole) {
   const auto rod = [](std::int64_t x, std::int64_t y, std::int64_t z) {
     return std::max(std::hypot(double(y) - 5.2, double(z) - 4.9) - 3, std::abs(double(x) - 2500) - 2400.3);
   };
-  const DenseSourceOptions options{.iso = 0, .gridClass = GridClass::kLevelSet, .hermite = HermiteMode::kGradient};
+  const DenseSourceOptions options{.iso = 0, .hermite = HermiteMode::kGradient, .gridClass = GridClass::kLevelSet};
   const Mesh along = meshOf(makeVolume<float>({5000, 11, 10}, rod, {.order = {2, 1, 0}}), options);
   EXPECT_TRUE(sameBytes(along, meshOf(makeVolume<float>({5000, 11, 10}, rod), options)));
   EXPECT_EQ(analyze(along).eulerNumber, 2);
