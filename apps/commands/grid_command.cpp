@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "files/json_file.h"
 #include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/process_grid.h"
 #include "pdc/io/vdb/vdb_writer.h"
 #include "reports/json_report.h"
+#include "requests/volume_request.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
@@ -28,6 +27,11 @@ struct GridRun {
   double secondsProcess = 0, secondsWrite = 0;
 };
 
+Json volumeJson(const ProcessedGrid& grid) {
+  if (!grid.volumeFile) return {};
+  return {{"format", grid.volumeFile->format}, {"space", grid.volumeFile->space}, {"unit", grid.volumeFile->unit}};
+}
+
 Json toJson(const MeshRequest& request, const GridRun& run) {
   const openvdb::GridBase& grid = *run.grid.volume.grid;
   const openvdb::Vec3d voxel = grid.voxelSize();
@@ -40,6 +44,7 @@ Json toJson(const MeshRequest& request, const GridRun& run) {
           {"voxel_size", {voxel.x(), voxel.y(), voxel.z()}},
           {"active_voxels", grid.activeVoxelCount()},
           {"steps", toJson(run.grid.steps)},
+          {"volume", volumeJson(run.grid)},
           {"bytes", run.bytesWritten},
           {"seconds", {{"process", run.secondsProcess}, {"write", run.secondsWrite}}},
           {"warnings", run.grid.warnings}};
@@ -61,21 +66,24 @@ void printSummary(const MeshRequest& request, const GridRun& run) {
 }  // namespace
 
 void addGridOptions(CLI::App& command, MeshRequest& request) {
-  command.add_option("INPUT", request.input, ".vdb, or a mesh with --mesh-to-level-set")->required()->type_name("");
+  command
+      .add_option("INPUT", request.input,
+                  ".vdb, a volume (.nii.gz, .nrrd, .mha, .npy, ...),\nor a mesh with --mesh-to-level-set")
+      ->required()
+      ->type_name("");
   command.add_option("OUTPUT", request.output, ".vdb")->required()->type_name("");
   addGridSteps(command, request.steps, "Steps, in this order");
   const auto reading = "Reading";
   command.add_option("--grid", request.grid, "Grid to take, if the file has several")
       ->type_name("NAME")
       ->group(reading);
-  addReal(
-      command, "--iso", request.iso, [](double v) { return std::isfinite(v); }, "a finite number",
-      "Where the surface is whose parts are kept or filled\n(level sets 0, fog volumes 0.5)")
-      ->type_name("V")
+  addIso(command, request,
+         "Where the surface is whose parts are kept or filled\n(level sets 0, fog volumes 0.5, dense ones otsu)")
       ->group(reading);
   addGridMeaning(command, request, reading);
   addNonFinite(command, request.acceptNonFinite)->group(reading);
   command.add_flag("--open", request.open, "Level sets are not closed where a box clips them")->group(reading);
+  addVolumeOptions(command, request.volume, "For volumes");
   const auto output = "Output";
   command.add_option("--json", request.json, "Report for programs; - is standard output")
       ->type_name("FILE")
@@ -87,6 +95,7 @@ void addGridOptions(CLI::App& command, MeshRequest& request) {
 
 void runGrid(const MeshRequest& request) {
   checkVdbPath(request.output);
+  if (request.kind() != InputKind::kVolume) refuseVolumeOptions(request.volume);
   checkJsonPath(request.json);
   checkJsonReplaces(request.json, request.input, request.output);
   GridRun run;
@@ -95,7 +104,7 @@ void runGrid(const MeshRequest& request) {
     ProgressBar bar(!request.quiet);
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
     run.grid = detail::withThreads(request.threads.value_or(0), [&] {
-      return processGrid(request.input, processOptions(request.inputOptions()),
+      return processGrid(request.input, processOptions(request.input, request.inputOptions()),
                          {.progress = show, .stop = &interruptFlag()});
     });
   }

@@ -120,7 +120,7 @@ ReadInput readInput(const MeshRequest& request, const Monitor& monitor) {
 
 ReadInput readAndShow(const MeshRequest& request) {
   const ExitOnInterrupt scope;
-  if (request.steps.empty()) {
+  if (request.steps.empty() && request.kind() != InputKind::kVolume) {
     const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
     return readInput(request, {});
   }
@@ -140,6 +140,7 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   checkAttributes(input, request.ownProperties());
   run.meaning = input.meaning;
   run.steps = input.steps;
+  run.volume = input.volume;
   run.crossingsWithoutData = input.crossingsWithoutData;
   run.iso = input.iso;
   run.planeOrigin = input.planeOrigin;
@@ -188,6 +189,8 @@ const char* phraseOf(DecidedBy by) {
   return "";
 }
 
+std::string knownText(const std::string& text) { return text.empty() ? "not known" : text; }
+
 void printSummary(const MeshRequest& request, const MeshRun& run) {
   const std::size_t open = run.contour.boundaryEdges;
   const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
@@ -196,6 +199,10 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
   if (run.meaning)
     fmt::print("a {} ({}), {} values inside ({})\n", nameOf(run.meaning->gridClass), phraseOf(run.meaning->classBy),
                nameOf(run.meaning->inside), phraseOf(run.meaning->insideBy));
+  if (run.volume)
+    fmt::print("{}, {} x {} x {} values, iso {:.6g}; frame {}, unit {}\n", run.volume->format, run.volume->size[0],
+               run.volume->size[1], run.volume->size[2], run.iso, knownText(run.volume->space),
+               knownText(run.volume->unit));
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (run.origin != Vec3d{} && !request.doublePrecision)
@@ -236,7 +243,11 @@ void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun&
 
   detail::Stopwatch stopwatch;
   run.bytesWritten = writeMeshFile(mesh, request.output,
-                                   {.ascii = request.ascii, .doublePrecision = request.doublePrecision}, request.quiet);
+                                   {.ascii = request.ascii,
+                                    .doublePrecision = request.doublePrecision,
+                                    .space = run.volume ? run.volume->space : "",
+                                    .unit = run.volume ? run.volume->unit : ""},
+                                   request.quiet);
   run.secondsWrite = stopwatch.lap();
   run.secondsTotal = run.secondsRead + total.lap();
 }

@@ -20,6 +20,12 @@ Json toJson(const std::optional<GridMeaning>& meaning) {
           {"half_width_voxels", meaning->halfWidth}};
 }
 
+Json volumeJson(const std::optional<InputVolume>& volume) {
+  if (!volume) return nullptr;
+  return {{"format", volume->format}, {"encoding", volume->encoding}, {"size", volume->size},
+          {"space", volume->space},   {"unit", volume->unit},         {"orientation", volume->orientation}};
+}
+
 Json adaptiveJson(const MeshRequest& request, const MeshRun& run) {
   if (!run.options.adaptive) return nullptr;
   return {{"distance", *run.options.adaptive},
@@ -73,6 +79,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"uncertified_pairs", run.contour.uncertified},
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
+          {"volume", volumeJson(run.volume)},
           {"properties", run.properties},
           {"steps", toJson(run.steps)},
           {"adaptive", adaptiveJson(request, run)},

@@ -22,6 +22,7 @@ struct MeshRun {
   std::size_t verticesOnBox = 0;         ///< Where a scene's solid is cut off.
   std::optional<GridMeaning> meaning;    ///< See Input.
   std::vector<GridStepReport> steps;     ///< See Input.
+  std::optional<InputVolume> volume;     ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
   std::size_t bytesWritten = 0;
   Vec3d origin{};  ///< See Mesh::origin.

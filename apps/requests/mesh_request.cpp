@@ -9,6 +9,7 @@
 #include "io/mesh/mesh_format.h"
 #include "pdc/error.h"
 #include "pdc/sample/implicit/field_source.h"
+#include "requests/volume_request.h"
 #include "terminal/choice_option.h"
 #include "terminal/numbers.h"
 
@@ -24,11 +25,9 @@ const Choices<InsideValues> kInsides{{"low", InsideValues::kLow}, {"high", Insid
 const Choices<bool> kNonFiniteModes{{"error", false}, {"outside", true}};
 
 void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
-  const auto finite = [](double v) { return std::isfinite(v); };
   const auto group = "Surface";
-  addReal(command, "--iso", request.iso, finite, "a finite number",
-          "Isovalue (level sets and scenes: 0, fog volumes: 0.5)")
-      ->type_name("V")
+  addIso(command, request,
+         "Isovalue (level sets and scenes: 0, fog volumes: 0.5,\ndense ones: otsu, between two classes of values)")
       ->group(group);
   const auto sigma = [&request](const std::string& text) {
     const std::vector<double> value = parseReals(text, ',');
@@ -88,17 +87,19 @@ void addPlaceOptions(CLI::App& command, MeshRequest& request, const std::string&
 
 void addInputOptions(CLI::App& command, MeshRequest& request) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
-  const auto grids = "For .vdb inputs";
-  command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
+  const auto fields = "For .vdb inputs and volumes";
   addChoice(command, "--hermite", request.hermite, kHermiteModes,
             "Where planes come from (auto): gradients at crossings; or,\n"
             "beside creases, distances; auto: distances if the grid has them")
       ->type_name("MODE")
-      ->group(grids);
-  addGridMeaning(command, request, grids);
+      ->group(fields);
+  addGridMeaning(command, request, fields);
+  const auto grids = "For .vdb inputs";
+  command.add_option("--grid", request.grid, "Grid to take, if the file has several")->type_name("NAME")->group(grids);
   addNoiseGrids(command, request, grids);
   addAdaptiveGrid(command, request, grids);
   addAttribute(command, request, grids);
+  addVolumeOptions(command, request.volume, "For volumes");
   const auto scenes = "For scenes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
@@ -120,16 +121,27 @@ void refuseOther(bool given, const char* name, const char* takers) {
   if (given) throw CLI::ValidationError(name, fmt::format("goes with {} only", takers));
 }
 
+/// What goes neither with volumes nor with scenes.
+void refuseGridOptions(const MeshRequest& request) {
+  const auto grids = ".vdb inputs";
+  refuseOther(request.grid.has_value(), "--grid", grids);
+  refuseOther(request.floodFill, "--flood-fill", grids);
+  refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", grids);
+  refuseOther(request.weightGrid.has_value(), "--weight-grid", grids);
+  refuseOther(request.adaptiveGrid.has_value(), "--adaptive-grid", grids);
+  refuseOther(request.allAttributes || !request.attributes.empty(), "--attribute", grids);
+}
+
 }  // namespace
 
 InputOptions MeshRequest::inputOptions() const {
   return {.iso = iso,
           .open = open,
           .acceptNonFinite = acceptNonFinite.value_or(false),
-          .grid = grid,
           .hermite = hermite.value_or(HermiteMode::kAuto),
           .gridClass = gridClass,
           .inside = inside,
+          .grid = grid,
           .floodFill = floodFill,
           .sigmaGrid = sigmaGrid,
           .weightGrid = weightGrid,
@@ -138,6 +150,8 @@ InputOptions MeshRequest::inputOptions() const {
           .adaptiveGrid = adaptiveGrid,
           .steps = loadGridSteps(steps, input, acceptNonFinite.value_or(false), open),
           .meshToLevelSet = steps.meshToLevelSet,
+          .volume = volume,
+          .isoFromOtsu = isoFromOtsu,
           .voxelSize = voxelSize,
           .resolution = resolution};
 }
@@ -166,6 +180,18 @@ ContourOptions MeshRequest::contourOptions(std::optional<double> otherSigma) con
 std::string placementName(Placement placement) {
   return std::find_if(kPlacements.begin(), kPlacements.end(), [&](const auto& p) { return p.second == placement; })
       ->first;
+}
+
+CLI::Option* addIso(CLI::App& command, MeshRequest& request, const std::string& help) {
+  const auto take = [&request](const std::string& text) {
+    const std::vector<double> value = parseReals(text, ',');
+    const bool number = value.size() == 1 && std::isfinite(value[0]);
+    if (text != "otsu" && !number)
+      throw CLI::ValidationError("--iso", fmt::format("'{}' is not a finite number, or otsu", text));
+    request.isoFromOtsu = !number;
+    request.iso = number ? std::optional(value[0]) : std::nullopt;
+  };
+  return command.add_option_function<std::string>("--iso", take, help)->type_name("V|otsu");
 }
 
 CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help) {
@@ -234,7 +260,10 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
 }
 
 void addMeshOptions(CLI::App& command, MeshRequest& request) {
-  command.add_option("INPUT", request.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
+  command
+      .add_option("INPUT", request.input, ".vdb, a volume (.nii.gz, .nrrd, .mha,\n.npy, ...), or a scene: .yaml, .yml")
+      ->required()
+      ->type_name("");
   command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
   command
       .add_option_function<std::string>(
@@ -243,7 +272,7 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
       ->type_name("A-B[:STEP]");
   addSurfaceOptions(command, request);
   addInputOptions(command, request);
-  addGridSteps(command, request.steps, "For .vdb inputs, before all else, in this order");
+  addGridSteps(command, request.steps, "For .vdb inputs and volumes, before all else, in this order");
   const auto group = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
   addPlaceOptions(command, request, group);
@@ -265,7 +294,17 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
 }
 
 void checkMeshRequest(const MeshRequest& request) {
-  switch (inputKind(request.input)) {
+  if (request.kind() != InputKind::kVolume) {
+    refuseVolumeOptions(request.volume);
+    refuseOther(request.isoFromOtsu, "--iso otsu", "volumes");
+  }
+  switch (request.kind()) {
+    case InputKind::kVolume:
+      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
+      refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      refuseOther(request.steps.meshToLevelSet.has_value(), "--mesh-to-level-set", "meshes");
+      refuseGridOptions(request);
+      break;
     case InputKind::kGrid:
       refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
       refuseOther(request.resolution.has_value(), "--resolution", "scenes");
@@ -277,21 +316,16 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(!request.steps.empty() && request.weightGrid, "--weight-grid", "grids without steps");
       break;
     case InputKind::kScene:
-      refuseOther(request.grid.has_value(), "--grid", ".vdb inputs");
-      refuseOther(request.hermite.has_value(), "--hermite", ".vdb inputs");
-      refuseOther(request.gridClass.has_value(), "--class", ".vdb inputs");
-      refuseOther(request.inside.has_value(), "--inside", ".vdb inputs");
-      refuseOther(request.floodFill, "--flood-fill", ".vdb inputs");
-      refuseOther(request.sigmaGrid.has_value(), "--sigma-grid", ".vdb inputs");
-      refuseOther(request.weightGrid.has_value(), "--weight-grid", ".vdb inputs");
-      refuseOther(request.adaptiveGrid.has_value(), "--adaptive-grid", ".vdb inputs");
-      refuseOther(request.allAttributes || !request.attributes.empty(), "--attribute", ".vdb inputs");
-      refuseOther(!request.steps.empty(), "a step on grids", ".vdb inputs");
+      refuseOther(request.hermite.has_value(), "--hermite", "grids and volumes");
+      refuseOther(request.gridClass.has_value(), "--class", "grids and volumes");
+      refuseOther(request.inside.has_value(), "--inside", "grids and volumes");
+      refuseGridOptions(request);
+      refuseOther(!request.steps.empty(), "a step on grids", "grids and volumes");
       break;
     case InputKind::kOther:
       if (request.steps.meshToLevelSet) break;
-      throw Error(
-          fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", request.input.string()));
+      throw Error(fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml or a volume's",
+                              request.input.string()));
   }
   const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
   refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");

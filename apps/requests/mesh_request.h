@@ -27,11 +27,13 @@ struct MeshRequest {
   std::vector<std::string> attributes;
   bool allAttributes = false;  ///< True for --attribute all.
   GridStepsRequest steps;
+  VolumeReadOptions volume;
   std::optional<double> iso, sigmaNormal, voxelSize;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
   std::optional<SuffixedLength> adaptive;
   bool triangles = false, open = false, normals = false, ascii = false;
+  bool isoFromOtsu = false;     ///< True for --iso otsu.
   bool sigmaFromData = false;   ///< True for --sigma-n auto.
   std::optional<Vec3d> origin;  ///< --origin X,Y,Z.
   bool originFromData = false;  ///< True for --origin auto.
@@ -39,6 +41,7 @@ struct MeshRequest {
   std::size_t maxMemory = 0;  ///< Bytes; 0: what the machine has.
   bool confidence = false, rank = false, requireSurface = false, quiet = false;
 
+  [[nodiscard]] InputKind kind() const { return volume.raw ? InputKind::kVolume : inputKind(input); }
   /// How to read the input, and what is done to a grid. \throws Error where steps name files that cannot be read.
   [[nodiscard]] InputOptions inputOptions() const;
   /// What it asks vertices to have besides attributes.
@@ -52,6 +55,9 @@ struct MeshRequest {
 
 /// Declares the options of `pdc mesh`; they are stored in `request` when the line is parsed.
 void addMeshOptions(CLI::App& command, MeshRequest& request);
+
+/// Declares --iso.
+CLI::Option* addIso(CLI::App& command, MeshRequest& request, const std::string& help);
 
 /// Declares --placement.
 CLI::Option* addPlacement(CLI::App& command, Placement& target, const std::string& help);
@@ -72,8 +78,8 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
 void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// \throws CLI::ValidationError for options that do not go with the kind of input, or a report that would replace the
-/// input or the output; Error for an input that is neither grid nor scene, and for σ, weight and adaptive grids without
-/// a name or with that of the grid.
+/// input or the output; Error for an input that is no grid, volume or scene, and for σ, weight and adaptive grids
+/// without a name or with that of the grid.
 void checkMeshRequest(const MeshRequest& request);
 
 }  // namespace pdc

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "requests/volume_request.h"
 #include "terminal/numbers.h"
 #include "terminal/view_option.h"
 
@@ -88,7 +89,7 @@ const std::vector<double>& SweepRequest::values() const {
 void addSweepOptions(CLI::App& command, SweepRequest& request) {
   const auto finite = [](double v) { return std::isfinite(v); };
   MeshRequest& mesh = request.mesh;
-  command.add_option("INPUT", mesh.input, ".vdb, or a scene: .yaml, .yml")->required()->type_name("");
+  command.add_option("INPUT", mesh.input, ".vdb, a volume, or a scene: .yaml, .yml")->required()->type_name("");
   command.add_option("OUTDIR", request.folder, "Folder for the report; made if it is not there")
       ->required()
       ->type_name("");
@@ -107,7 +108,8 @@ void addSweepOptions(CLI::App& command, SweepRequest& request) {
   addGridMeaning(command, mesh, "OPTIONS");
   addNoiseGrids(command, mesh, "OPTIONS");
   addAdaptiveGrid(command, mesh, "OPTIONS");
-  addGridSteps(command, mesh.steps, "For .vdb inputs, before all else, in this order");
+  addVolumeOptions(command, mesh.volume, "For volumes");
+  addGridSteps(command, mesh.steps, "For .vdb inputs and volumes, before all else, in this order");
   command
       .add_option("--reference", request.reference,
                   "What the surface should be, a mesh or a scene\n(a scene that is swept is its own)")

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "io/file/suffix.h"
+#include "io/open_volume.h"
 #include "io/vdb/grid_warnings.h"
 #include "pdc/error.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
+#include "pdc/sample/dense/value_histogram.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/vdb/grid_function.h"
 
@@ -22,22 +24,48 @@ void refuseOther(bool given, const fs::path& path, const char* option, const cha
   if (given) throw Error(fmt::format("'{}': {} goes with {} only", path.string(), option, takers));
 }
 
+void refuseVolumeOptions(const fs::path& path, const InputOptions& options) {
+  const auto volumes = "dense volumes";
+  const VolumeReadOptions& volume = options.volume;
+  refuseOther(options.isoFromOtsu, path, "Otsu's threshold", volumes);
+  refuseOther(volume.array.has_value(), path, "an array's name", volumes);
+  refuseOther(volume.volumeIndex.has_value(), path, "the index of a volume", volumes);
+  refuseOther(volume.channel.has_value(), path, "a channel", volumes);
+  refuseOther(volume.spacing.has_value(), path, "a spacing", volumes);
+  refuseOther(volume.frame != WorldFrame::kFile, path, "a frame", volumes);
+}
+
 void checkGridOptions(const fs::path& path, const InputOptions& options) {
+  refuseVolumeOptions(path, options);
   refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes");
   refuseOther(options.resolution.has_value(), path, "a resolution", "scenes");
 }
 
-void checkSceneOptions(const fs::path& path, const InputOptions& options) {
+/// What goes neither with dense volumes nor with scenes.
+void refuseGridOptions(const fs::path& path, const InputOptions& options) {
   const auto grids = ".vdb inputs";
   refuseOther(options.grid.has_value(), path, "a grid's name", grids);
-  refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
-  refuseOther(options.gridClass.has_value(), path, "a grid's class", grids);
-  refuseOther(options.inside.has_value(), path, "a side that is inside", grids);
   refuseOther(options.floodFill, path, "flood filling", grids);
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", grids);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", grids);
   refuseOther(options.adaptiveGrid.has_value(), path, "an adaptive grid", grids);
   refuseOther(options.allAttributes || !options.attributes.empty(), path, "an attribute", grids);
+}
+
+void checkVolumeOptions(const fs::path& path, const InputOptions& options) {
+  refuseGridOptions(path, options);
+  refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes");
+  refuseOther(options.resolution.has_value(), path, "a resolution", "scenes");
+  if (options.isoFromOtsu && options.iso) throw Error("an isovalue excludes Otsu's threshold");
+}
+
+void checkSceneOptions(const fs::path& path, const InputOptions& options) {
+  refuseVolumeOptions(path, options);
+  refuseGridOptions(path, options);
+  const auto grids = "grids and volumes";
+  refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
+  refuseOther(options.gridClass.has_value(), path, "a grid's class", grids);
+  refuseOther(options.inside.has_value(), path, "a side that is inside", grids);
   refuseOther(!options.steps.empty(), path, "what is done to grids", grids);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
   if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
@@ -92,9 +120,14 @@ void readAttributes(const fs::path& path, const InputOptions& options, Input& in
   }
 }
 
+InputVolume describe(const DenseVolume& volume) {
+  return {volume.format, volume.encoding, volume.space, volume.unit, volume.orientation, volume.view.size};
+}
+
 /// A grid and what came of the steps. Without steps readMeaning() has the file's own grid, and all that it doubts.
 Input openProcessed(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
-  checkGridOptions(path, options);
+  const bool dense = !options.meshToLevelSet && inputKind(path, options) == InputKind::kVolume;
+  dense ? checkVolumeOptions(path, options) : checkGridOptions(path, options);
   const auto single = "grids without steps";
   refuseOther(options.sigmaGrid.has_value(), path, "a sigma grid", single);
   refuseOther(options.weightGrid.has_value(), path, "a weight grid", single);
@@ -102,7 +135,7 @@ Input openProcessed(const fs::path& path, const InputOptions& options, const Mon
   refuseOther(options.meshToLevelSet && options.adaptiveGrid, path, "an adaptive grid", vdb);
   refuseOther(options.meshToLevelSet && (options.allAttributes || !options.attributes.empty()), path, "an attribute",
               vdb);
-  ProcessedGrid processed = processGrid(path, processOptions(options), monitor);
+  ProcessedGrid processed = processGrid(path, processOptions(path, options), monitor);
   const GridVolume& volume = processed.volume;
   auto source = std::make_unique<GridSource>(volume.grid, GridSourceOptions{.iso = volume.iso,
                                                                             .open = options.open,
@@ -119,7 +152,8 @@ Input openProcessed(const fs::path& path, const InputOptions& options, const Mon
   input.warnings = std::move(processed.warnings);
   input.whyEmpty = [iso = input.iso] { return fmt::format("the grid has no surface at iso {} after the steps", iso); };
   input.source = std::move(source);
-  if (options.meshToLevelSet) return input;
+  if (processed.volumeFile) input.volume = describe(*processed.volumeFile);
+  if (options.meshToLevelSet || dense) return input;
   if (const auto scale = readCompanion(path, options.adaptiveGrid, *volume.grid, "adaptive"))
     input.adaptiveScale = gridFunction(scale);
   readAttributes(path, options, input);
@@ -152,6 +186,37 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
   readAttributes(path, options, input);
   input.whyEmpty = [path, name = grid->getName(), iso = input.iso] { return whyGridIsEmpty(path, name, iso); };
   input.source = std::move(source);
+  return input;
+}
+
+Input openDense(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
+  checkVolumeOptions(path, options);
+  detail::OpenedVolume opened = detail::openVolume(path,
+                                                   {.read = options.volume,
+                                                    .source = {.iso = options.iso,
+                                                               .open = options.open,
+                                                               .acceptNonFinite = options.acceptNonFinite,
+                                                               .hermite = options.hermite,
+                                                               .gridClass = options.gridClass,
+                                                               .inside = options.inside},
+                                                    .isoFromOtsu = options.isoFromOtsu},
+                                                   monitor);
+  const DenseSource& source = *opened.source;
+  Input input;
+  input.iso = source.iso();
+  input.planeOrigin = source.usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
+  input.valueNoise = source.valueNoise();
+  input.meaning = source.meaning();
+  input.volume = describe(opened.volume);
+  input.warnings = std::move(opened.warnings);
+  input.whyEmpty = [view = opened.volume.view, owner = opened.volume.owner, iso = input.iso] {
+    const ValueHistogram values = valueHistogram(view, 1);
+    if (values.finite > 0 && (iso < values.lowest || iso > values.highest))
+      return fmt::format("iso {} is outside of the volume's values, {:.6g} to {:.6g}", iso, values.lowest,
+                         values.highest);
+    return fmt::format("the volume has no surface at iso {}", iso);
+  };
+  input.source = std::move(opened.source);
   return input;
 }
 
@@ -189,7 +254,11 @@ InputKind inputKind(const fs::path& path) {
   const std::string suffix = detail::suffixOf(path);
   if (suffix == ".vdb") return InputKind::kGrid;
   if (suffix == ".yaml" || suffix == ".yml") return InputKind::kScene;
-  return InputKind::kOther;
+  return isVolumeFile(path) ? InputKind::kVolume : InputKind::kOther;
+}
+
+InputKind inputKind(const fs::path& path, const InputOptions& options) {
+  return options.volume.raw ? InputKind::kVolume : inputKind(path);
 }
 
 std::string_view planeOriginName(PlaneOrigin origin) {
@@ -204,7 +273,8 @@ std::string_view planeOriginName(PlaneOrigin origin) {
   return "";
 }
 
-ProcessGridOptions processOptions(const InputOptions& options) {
+ProcessGridOptions processOptions(const fs::path& path, const InputOptions& options) {
+  const bool dense = inputKind(path, options) == InputKind::kVolume;
   return {.grid = options.grid.value_or(""),
           .settle = {.meaning = {.iso = options.iso,
                                  .gridClass = options.gridClass,
@@ -212,12 +282,16 @@ ProcessGridOptions processOptions(const InputOptions& options) {
                                  .floodFill = options.floodFill},
                      .acceptNonFinite = options.acceptNonFinite},
           .steps = options.steps,
-          .meshToLevelSet = options.meshToLevelSet};
+          .meshToLevelSet = options.meshToLevelSet,
+          .volume = dense ? std::optional(options.volume) : std::nullopt,
+          .isoFromOtsu = options.isoFromOtsu};
 }
 
 Input openInput(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
   if (options.meshToLevelSet) return openProcessed(path, options, monitor);
-  switch (inputKind(path)) {
+  switch (inputKind(path, options)) {
+    case InputKind::kVolume:
+      return options.steps.empty() ? openDense(path, options, monitor) : openProcessed(path, options, monitor);
     case InputKind::kGrid:
       return options.steps.empty() ? openGrid(path, options) : openProcessed(path, options, monitor);
     case InputKind::kScene:
@@ -225,7 +299,8 @@ Input openInput(const fs::path& path, const InputOptions& options, const Monitor
     case InputKind::kOther:
       break;
   }
-  throw Error(fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml or .yml", path.string()));
+  throw Error(
+      fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml or a volume's", path.string()));
 }
 
 }  // namespace pdc

@@ -9,5 +9,7 @@ namespace pdc {
 
 void fuzzScene(std::string_view bytes);
 void fuzzVdb(std::string_view bytes);
+/// Takes the bytes as the format that they begin as.
+void fuzzVolume(std::string_view bytes);
 
 }  // namespace pdc

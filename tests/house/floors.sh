@@ -17,9 +17,9 @@ declare -A room_of=(
   [simplify]=0 [simplify/clustering]=1 [simplify/error_bound]=1 [simplify/pair_contraction]=1 [simplify/decimation]=2
   [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/stencils]=2 [sample/dense]=3 [sample/vdb]=3
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
-  [grid]=0 [grid/description]=1
+  [grid]=0 [grid/dense]=1 [grid/description]=1
   [field]=0 [field/primitives]=1 [field/operators]=1
-  [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/scene]=2 [io]=4
+  [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=1 [io/scene]=2 [io]=4
   [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps]=5
 )
 

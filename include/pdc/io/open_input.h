@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,28 +14,31 @@
 #include "pdc/extract/contour.h"
 #include "pdc/field/field.h"
 #include "pdc/io/process_grid.h"
+#include "pdc/io/volume/volume_reader.h"
 #include "pdc/sample/hermite_source.h"
 #include "pdc/sample/vdb/grid_source.h"
 
 namespace pdc {
 
-/// What a file holds, by its suffix in upper or lower case: .vdb is a grid, .yaml and .yml are scenes.
-enum class InputKind { kGrid, kScene, kOther };
+/// What a file holds, by its suffix in upper or lower case: .vdb is a grid, .yaml and .yml are scenes, isVolumeFile()
+/// knows volumes.
+enum class InputKind { kGrid, kScene, kVolume, kOther };
 
 /// Looks at the name alone; the file need not exist.
 [[nodiscard]] InputKind inputKind(const std::filesystem::path& path);
 
 /// How to read an input. What is empty, false or kAuto is not asked for, and goes with every kind of input.
 struct InputOptions {
-  std::optional<double> iso{};   ///< Finite. Empty: 0 for level sets, 0.5 for fog volumes, what a scene says.
+  /// Finite. Empty: 0 for level sets, 0.5 for fog volumes, what DenseSource and a scene say.
+  std::optional<double> iso{};
   bool open = false;             ///< The surface ends where the data ends, instead of being closed.
   bool acceptNonFinite = false;  ///< NaN and infinite values are outside; see GridSourceOptions, FieldSourceOptions.
 
-  // For grids only.
-  std::optional<std::string> grid{};  ///< As readVdbGrid() takes it. Empty: the only grid that can be contoured.
+  // For grids and, up to `inside`, for dense volumes.
   HermiteMode hermite = HermiteMode::kAuto;
   std::optional<GridClass> gridClass{};    ///< Empty: the grid's, or what its values say; see readMeaning().
   std::optional<InsideValues> inside{};    ///< Empty: decided from the grid.
+  std::optional<std::string> grid{};       ///< As readVdbGrid() takes it. Empty: the only grid that can be contoured.
   bool floodFill = false;                  ///< See GridSourceOptions.
   std::optional<std::string> sigmaGrid{};  ///< A grid of the same file: standard deviation of each value, in its units.
   std::optional<std::string> weightGrid{};  ///< A grid of the same file: how much each value counts beside others.
@@ -42,9 +47,13 @@ struct InputOptions {
   bool allAttributes = false;  ///< All further grids that can be sampled, in file order; then `attributes` is empty.
   std::optional<std::string> adaptiveGrid{};  ///< A float or double grid of the same file, of any transform.
 
-  GridSteps steps{};  ///< What is done to the grid first; excludes σ and weight grids.
+  GridSteps steps{};  ///< What is done to the grid or volume first; excludes σ and weight grids.
   /// The file is a mesh instead, whose level set is taken.
   std::optional<MeshToLevelSetOptions> meshToLevelSet{};
+
+  // For dense volumes only.
+  VolumeReadOptions volume{};  ///< With `raw` any file is a volume.
+  bool isoFromOtsu = false;    ///< The isovalue is otsuThreshold(); excludes `iso`.
 
   // For scenes only; at most one of them. Neither: what the scene says.
   std::optional<double> voxelSize{};  ///< World units, > 0.
@@ -67,6 +76,12 @@ struct InputAttribute {
   openvdb::GridBase::ConstPtr grid;  ///< Not null.
 };
 
+/// What is known of the file of a dense volume; see DenseVolume.
+struct InputVolume {
+  std::string format, encoding, space, unit, orientation;
+  std::array<std::int64_t, 3> size{};
+};
+
 /// An input that is ready to be contoured.
 struct Input {
   std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
@@ -82,6 +97,7 @@ struct Input {
   std::size_t crossingsWithoutData = 0;  ///< See GridSource.
   std::optional<GridMeaning> meaning{};  ///< How a grid is read, and why. Empty for a scene.
   std::vector<GridStepReport> steps{};   ///< What was done to the grid.
+  std::optional<InputVolume> volume{};   ///< Empty for other inputs than dense volumes.
   /// Where the data may mean something else than it was taken for or makes a poor surface: a line each, which names the
   /// remedy by the program's option.
   std::vector<std::string> warnings{};
@@ -89,16 +105,20 @@ struct Input {
   std::function<std::string()> whyEmpty;
 };
 
-/// Reads a .vdb grid or a scene and makes the source that `pdc mesh` contours. A grid is wholly in memory afterwards;
-/// OpenVDB is initialised on the way. The monitor is that of the steps; nothing can be stopped while OpenVDB reads.
-/// \throws Error for another kind of file, options that go with another kind of input, both a voxel size and a
-/// resolution, a σ, weight or adaptive grid or an attribute without a name or that is the grid itself, a σ or weight
-/// grid with steps, an attribute that is named twice; whatever processGrid(), readVdbGrid(), readVdbAttribute(),
-/// gridFunction(), GridSource, readScene() and FieldSource throw.
+/// Reads a .vdb grid, a dense volume or a scene and makes the source that `pdc mesh` contours. A grid is wholly in
+/// memory afterwards, a volume as far as it is compressed; OpenVDB is initialised on the way. The monitor is that of
+/// the steps; nothing can be stopped while OpenVDB reads. \throws Error for another kind of file, options that go with
+/// another kind of input, both a voxel size and a resolution, a σ, weight or adaptive grid or an attribute without a
+/// name or that is the grid itself, a σ or weight grid with steps, an attribute that is named twice; whatever
+/// processGrid(), readVdbGrid(), readVdbAttribute(), gridFunction(), GridSource, readVolume(), otsuThreshold(),
+/// DenseSource, readScene() and FieldSource throw.
 [[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {},
                               const Monitor& monitor = {});
 
-/// What processGrid() takes of these options.
-[[nodiscard]] ProcessGridOptions processOptions(const InputOptions& options);
+/// The kind that the options make of a file.
+[[nodiscard]] InputKind inputKind(const std::filesystem::path& path, const InputOptions& options);
+
+/// What processGrid() takes of these options for this file.
+[[nodiscard]] ProcessGridOptions processOptions(const std::filesystem::path& path, const InputOptions& options);
 
 }  // namespace pdc

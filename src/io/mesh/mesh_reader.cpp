@@ -7,8 +7,10 @@
 #include <string_view>
 
 #include "io/file/file_error.h"
+#include "io/file/inflate.h"
 #include "io/file/line_ends.h"
 #include "io/file/read_file.h"
+#include "io/file/suffix.h"
 #include "io/mesh/mesh_format.h"
 #include "io/parse/obj_reader.h"
 #include "io/parse/off_reader.h"
@@ -71,12 +73,14 @@ ParsedMesh read(Buffer<char>& bytes, MeshFormat named, const std::function<void(
 }  // namespace
 
 Mesh readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
-  const MeshFormat named = detail::meshFormat(path);
+  const bool deflated = detail::suffixOf(path) == ".gz";
+  const MeshFormat named = detail::meshFormat(deflated ? path.parent_path() / path.stem() : path);
   const auto warn = [&](const std::string& what) {
     if (options.warn) options.warn(detail::fileError(path, what).what());
   };
   try {
     Buffer<char> bytes = detail::readFile(path);
+    if (deflated) bytes = detail::inflateAll(bytes);
     ParsedMesh parsed = read(bytes, named, warn);
     if (!parsed.splitsQuads) detail::turnConcaveQuads(parsed.mesh);
     if (!options.keepPolygons) triangulatePolygons(parsed.mesh);

@@ -7,6 +7,7 @@
 #include "io/mesh/obj_writer.h"
 #include "io/mesh/ply_writer.h"
 #include "io/openmesh/openmesh_writer.h"
+#include "io/parse/origin_text.h"
 #include "mesh/mesh_checks.h"
 
 namespace pdc {
@@ -28,13 +29,13 @@ std::size_t writeMesh(const Mesh& mesh, const std::filesystem::path& path, const
       detail::writePly(mesh, file, options);
       break;
     case detail::MeshFormat::kObj:
-      detail::writeObj(mesh, file, options.doublePrecision);
+      detail::writeObj(mesh, file, options);
       break;
     case detail::MeshFormat::kStl:
-      detail::writeStl(mesh, file, options.ascii);
+      detail::writeStl(mesh, file, options.ascii, detail::frameText(options.space, options.unit));
       break;
     case detail::MeshFormat::kOff:
-      detail::writeOff(mesh, file);
+      detail::writeOff(mesh, file, detail::frameText(options.space, options.unit));
       break;
   }
   file.commit();

@@ -83,8 +83,10 @@ void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
 
 }  // namespace
 
-void writeObj(const Mesh& mesh, AtomicFile& file, bool world) {
-  const std::string header = fmt::format("# {}\n{}", kOwnComment, world ? "" : originLine(mesh, "# "));
+void writeObj(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options) {
+  const bool world = options.doublePrecision;
+  const std::string header = fmt::format("# {}\n{}{}", kOwnComment, world ? "" : originLine(mesh, "# "),
+                                         commentLine(frameText(options.space, options.unit), "# "));
   const bool normals = !mesh.normals.empty();
   const Colours colours(mesh);
   file.write(header.data(), header.size());

@@ -43,11 +43,12 @@ std::string header(const Mesh& mesh, const MeshWriteOptions& options) {
       properties += fmt::format("property {} {}\n", plyTypeName(plyType(property)), name);
   const char* const real = plyTypeName(options.doublePrecision ? PlyType::kFloat64 : PlyType::kFloat32);
   return fmt::format(
-      "ply\nformat {} 1.0\ncomment {}\n{}"
+      "ply\nformat {} 1.0\ncomment {}\n{}{}"
       "element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n{}{}"
       "element face {}\nproperty list {} {} vertex_indices\nend_header\n",
       options.ascii ? "ascii" : "binary_little_endian", kOwnComment,
-      options.doublePrecision ? "" : originLine(mesh, "comment "), mesh.positions.size(), real, real, real,
+      options.doublePrecision ? "" : originLine(mesh, "comment "),
+      commentLine(frameText(options.space, options.unit), "comment "), mesh.positions.size(), real, real, real,
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties,
       faceCount(mesh), areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(mesh.positions.size()));
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <locale>
+#include <optional>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -79,16 +80,18 @@ struct Title {
   std::string text{};
 };
 
-/// The title of a .stl file with the mesh's origin; OpenMesh's own if that is zero.
-Title stlTitle(const Mesh& mesh, bool binary) {
-  if (mesh.origin == Vec3d{0, 0, 0}) return {};
-  std::string origin = originText(mesh.origin);
-  if (!binary) return {.replaced = std::string_view("solid \n").size(), .text = fmt::format("solid {}\n", origin)};
+/// The title of a .stl file with the mesh's origin and its frame; OpenMesh's own if there is neither.
+Title stlTitle(const Mesh& mesh, bool binary, const std::string& frame) {
+  std::string text = mesh.origin == Vec3d{0, 0, 0} ? std::string() : originText(mesh.origin);
+  if (text.empty() && frame.empty()) return {};
   constexpr std::size_t kHeader = 80;
-  if (origin.size() > kHeader)
-    throw Error(fmt::format("\"{}\" does not fit into the {} bytes of a .stl file's header", origin, kHeader));
-  origin.resize(kHeader, ' ');
-  return {.replaced = kHeader, .text = std::move(origin)};
+  if (binary && text.size() > kHeader)
+    throw Error(fmt::format("\"{}\" does not fit into the {} bytes of a .stl file's header", text, kHeader));
+  const std::string both = text + (text.empty() || frame.empty() ? "" : " ") + frame;
+  if (!binary) return {.replaced = std::string_view("solid \n").size(), .text = fmt::format("solid {}\n", both)};
+  if (both.size() <= kHeader) text = both;
+  text.resize(kHeader, ' ');
+  return {.replaced = kHeader, .text = std::move(text)};
 }
 
 /// Takes what a stream writes into an AtomicFile.
@@ -120,13 +123,17 @@ class FileBuffer final : public std::streambuf {
   std::vector<char> mBytes;
 };
 
-void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, const OpenMesh::IO::Options& options) {
+/// \param title of a .stl file; empty for a .off file, whose quads stay.
+void write(const Mesh& mesh, AtomicFile& file, const std::optional<Title>& title,
+           const OpenMesh::IO::Options& options) {
+  const bool split = title.has_value();
+  const char* const format = split ? "stl" : "off";
   SoupExporter exporter(mesh, split);
   constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (exporter.n_faces() > kMax || exporter.n_vertices() > kMax)
     throw Error(fmt::format("a .{} file takes at most {} vertices and faces, the mesh has {} and {}", format, kMax,
                             exporter.n_vertices(), exporter.n_faces()));
-  FileBuffer buffer(file, split ? stlTitle(mesh, options.is_binary()) : Title{});
+  FileBuffer buffer(file, title.value_or(Title{}));
   std::ostream stream(&buffer);
   stream.imbue(std::locale::classic());
   stream.exceptions(std::ios::badbit);  // lets Error through from the buffer
@@ -138,18 +145,19 @@ void write(const Mesh& mesh, AtomicFile& file, const char* format, bool split, c
 
 }  // namespace
 
-void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii) {
-  const auto options = ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary;
-  if (mesh.polygons.empty()) return write(mesh, file, "stl", true, options);
+void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii, const std::string& frame) {
+  const auto kind = ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary;
+  const Title title = stlTitle(mesh, !ascii, frame);
+  if (mesh.polygons.empty()) return write(mesh, file, title, kind);
   Mesh triangulated = mesh;
   triangulatePolygons(triangulated);
-  write(triangulated, file, "stl", true, options);
+  write(triangulated, file, title, kind);
 }
 
-void writeOff(const Mesh& mesh, AtomicFile& file) {
-  write(mesh, file, "off", false, OpenMesh::IO::Options::Default);
+void writeOff(const Mesh& mesh, AtomicFile& file, const std::string& frame) {
+  write(mesh, file, std::nullopt, OpenMesh::IO::Options::Default);
   // Comments come last, where no reader minds them.
-  std::string comments = originLine(mesh, "# ");
+  std::string comments = originLine(mesh, "# ") + commentLine(frame, "# ");
   if (!mesh.quads.empty()) comments += fmt::format("# {}\n", kOwnComment);
   file.write(comments.data(), comments.size());
 }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "io/file/file_error.h"
 #include "io/file/text_scanner.h"
 #include "pdc/error.h"
 
@@ -58,6 +60,24 @@ std::optional<Vec3d> originInHeader(std::string_view header) {
   while (!scanner.restOfLine().empty())
     if (scanner.word() == kKeyword) return finitePoint(scanner);
   return std::nullopt;
+}
+
+std::string frameText(std::string_view space, std::string_view unit) {
+  std::string text;
+  const auto add = [&text](std::string_view key, std::string_view value) {
+    if (value.empty()) return;
+    std::string word = oneLine(value);
+    std::replace(word.begin(), word.end(), ' ', '_');
+    if (!text.empty()) text += ' ';
+    text.append(key).append(word);
+  };
+  add("SPACE=", space);
+  add("UNIT=", unit);
+  return text;
+}
+
+std::string commentLine(std::string_view text, std::string_view mark) {
+  return text.empty() ? std::string() : fmt::format("{}{}\n", mark, text);
 }
 
 }  // namespace pdc::detail

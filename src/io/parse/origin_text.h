@@ -33,4 +33,11 @@ void takeOrigin(const Vec3d& origin, std::optional<Vec3d>& found);
 /// The origin that stands anywhere in a header.
 [[nodiscard]] std::optional<Vec3d> originInHeader(std::string_view header);
 
+/// "SPACE=RAS UNIT=mm", as 3D Slicer looks for it in the first lines of meshes: what is known of the frame that
+/// coordinates are in and of their unit; empty if nothing is. Has no blanks but that between the two.
+[[nodiscard]] std::string frameText(std::string_view space, std::string_view unit);
+
+/// A comment's line with `text`; empty if that is.
+[[nodiscard]] std::string commentLine(std::string_view text, std::string_view mark);
+
 }  // namespace pdc::detail

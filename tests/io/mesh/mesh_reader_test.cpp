@@ -76,6 +76,20 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+TEST(ReadMesh, GzipGivesWhatIsInIt) {
+  const fs::path path = test::dataFolder() / "mesh" / "stanford_dragon_res3.ply.gz";
+  if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
+  const Mesh mesh = readMesh(path);
+  EXPECT_EQ(mesh.positions.size(), 22998u);
+  EXPECT_EQ(mesh.triangles.size(), 47794u);
+  const TemporaryFolder folder;
+  const std::string bytes = contentsOf(path);
+  writeContents(folder / "cut.ply.gz", bytes.substr(0, bytes.size() / 2));
+  EXPECT_THROW(static_cast<void>(readMesh(folder / "cut.ply.gz")), Error);
+  writeContents(folder / "plain.ply.gz", "ply");
+  EXPECT_THROW(static_cast<void>(readMesh(folder / "plain.ply.gz")), Error);
+}
+
 TEST(ReadMesh, PlyOfEitherByteOrderAndAnyType) {
   const std::string head =
       "element vertex 3\nproperty uchar red\nproperty double x\nproperty float y\nproperty short z\n"

@@ -15,14 +15,14 @@ struct MeshReadOptions {
   std::function<void(const std::string&)> warn = {};
 };
 
-/// Reads .ply, .obj, .off and .stl as a soup: non-manifold, open and degenerate meshes arrive as they stand in the
-/// file, and so does a file without faces. Where the content says for certain that it has another one of these formats
-/// than its suffix, it is read as that, with a warning. Faces with three corners become triangles, with four quads,
-/// each kind in the order of the file; a flat quad that its first corner does not split properly, but its second does,
-/// begins with that one, unless a comment says that writeMesh() wrote it. Larger ones become polygons and then, unless
-/// they are to be kept, triangles (see triangulatePolygons), which come after all others. Strips in .ply become
-/// triangles in the order of the file. Vertices of .stl are welded by exact position. Vertex normals are kept where the
-/// file gives one to each vertex.
+/// Reads .ply, .obj, .off and .stl, and the same with .gz behind it, as a soup: non-manifold, open and degenerate
+/// meshes arrive as they stand in the file, and so does a file without faces. Where the content says for certain that
+/// it has another one of these formats than its suffix, it is read as that, with a warning. Faces with three corners
+/// become triangles, with four quads, each kind in the order of the file; a flat quad that its first corner does not
+/// split properly, but its second does, begins with that one, unless a comment says that writeMesh() wrote it. Larger
+/// ones become polygons and then, unless they are to be kept, triangles (see triangulatePolygons), which come after all
+/// others. Strips in .ply become triangles in the order of the file. Vertices of .stl are welded by exact position.
+/// Vertex normals are kept where the file gives one to each vertex.
 ///
 /// Coordinates are read in double precision. Where single precision would change one by more than a millionth of the
 /// box's largest side, which needs a mesh more than 16 sides away from the origin, they are made relative to

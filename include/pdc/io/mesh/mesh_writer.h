@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "pdc/mesh/mesh.h"
 
@@ -12,6 +13,8 @@ struct MeshWriteOptions {
   /// .ply and .obj hold world coordinates, the sums of the mesh's origin and its positions, in double precision,
   /// instead of the positions. Sums are rounded; those of a mesh made with ContourOptions::exactSums are exact.
   bool doublePrecision = false;
+  /// What coordinates are in, such as "RAS" and "mm"; empty where that is not known. Blanks become '_'.
+  std::string space{}, unit{};
 };
 
 /// Throws Error unless `path` can take a mesh: a suffix that is known and a folder that exists and can be written to.
@@ -24,7 +27,8 @@ void checkMeshPath(const std::filesystem::path& path);
 /// Quads come before triangles, and those before polygons; in .stl all are triangles. Only .ply holds properties; the
 /// others leave them out, but for colours in .obj: where "red", "green" and "blue" are bytes they follow the
 /// coordinates, as 0 to 1, which many programs read. An origin that is not zero is a comment "pdc_origin X Y Z" in
-/// .ply, .obj and .off, and stands in the header or the first line of .stl; coordinates are relative to it.
+/// .ply, .obj and .off, and stands in the header or the first line of .stl; coordinates are relative to it. So are
+/// space and unit, as "SPACE=RAS UNIT=mm"; from the 80 bytes of a .stl header they are left out where they do not fit.
 ///
 /// The file appears under its name only when it is complete: it is written to a temporary file beside it, synchronised
 /// and renamed. On any error the temporary file is removed and whatever stood under the name stays.
