@@ -139,6 +139,7 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   for (const std::string& warning : input.warnings) warn(run, warning);
   checkAttributes(input, request.ownProperties());
   run.meaning = input.meaning;
+  run.mesh = input.mesh;
   run.steps = input.steps;
   run.volume = input.volume;
   run.crossingsWithoutData = input.crossingsWithoutData;
@@ -203,6 +204,10 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
     fmt::print("{}, {} x {} x {} values, iso {:.6g}; frame {}, unit {}\n", run.volume->format, run.volume->size[0],
                run.volume->size[1], run.volume->size[2], run.iso, knownText(run.volume->space),
                knownText(run.volume->unit));
+  if (run.mesh)
+    fmt::print("a mesh of {} triangles, {}; voxels of {:.4g}\n", run.mesh->triangles,
+               run.mesh->openEdges == 0 ? "closed" : fmt::format("{} open edges", run.mesh->openEdges),
+               run.mesh->voxelSize);
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (run.origin != Vec3d{} && !request.doublePrecision)

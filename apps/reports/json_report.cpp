@@ -26,6 +26,11 @@ Json volumeJson(const std::optional<InputVolume>& volume) {
           {"space", volume->space},   {"unit", volume->unit},         {"orientation", volume->orientation}};
 }
 
+Json toJson(const std::optional<InputMeshFacts>& mesh) {
+  if (!mesh) return {};
+  return {{"triangles", mesh->triangles}, {"open_edges", mesh->openEdges}, {"voxel_size", mesh->voxelSize}};
+}
+
 Json adaptiveJson(const MeshRequest& request, const MeshRun& run) {
   if (!run.options.adaptive) return nullptr;
   return {{"distance", *run.options.adaptive},
@@ -80,6 +85,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"iso", run.iso},
           {"grid", toJson(run.meaning)},
           {"volume", volumeJson(run.volume)},
+          {"mesh", toJson(run.mesh)},
           {"properties", run.properties},
           {"steps", toJson(run.steps)},
           {"adaptive", adaptiveJson(request, run)},

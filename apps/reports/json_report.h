@@ -21,6 +21,7 @@ struct MeshRun {
   std::size_t crossingsWithoutData = 0;  ///< See Input.
   std::size_t verticesOnBox = 0;         ///< Where a scene's solid is cut off.
   std::optional<GridMeaning> meaning;    ///< See Input.
+  std::optional<InputMeshFacts> mesh;    ///< See Input.
   std::vector<GridStepReport> steps;     ///< See Input.
   std::optional<InputVolume> volume;     ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;

@@ -109,6 +109,12 @@ std::pair<std::string, std::string> splitName(const std::string& text) {
 
 }  // namespace
 
+bool GridStepsRequest::isOffsetOnly() const {
+  GridStepsRequest others = *this;
+  others.steps.offset.reset();
+  return others.empty();
+}
+
 void addGridSteps(CLI::App& command, GridStepsRequest& request, const std::string& group) {
   GridSteps& steps = request.steps;
   const auto finite = [](double v) { return std::isfinite(v); };
@@ -137,7 +143,7 @@ void addGridSteps(CLI::App& command, GridStepsRequest& request, const std::strin
       ->type_name("FILTER:R")
       ->group(group);
   addReal(command, "--offset", steps.offset, finite, "a finite number",
-          "The surface goes outwards by D, or inwards below 0")
+          "The surface goes outwards by D, or inwards below 0; of a mesh,\ntoo")
       ->type_name("D")
       ->group(group);
   addReal(command, "--open-close", steps.openClose, positive, "a finite number above 0",

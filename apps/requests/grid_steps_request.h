@@ -23,6 +23,8 @@ struct GridStepsRequest {
   [[nodiscard]] bool empty() const {
     return !meshToLevelSet && steps.empty() && !voxelSize && clipGrid.empty() && combined.empty();
   }
+  /// Whether nothing but --offset was said, which meshes have, too.
+  [[nodiscard]] bool isOffsetOnly() const;
 };
 
 /// Declares the options; they are stored in `request` when the line is parsed.

@@ -100,13 +100,17 @@ void addInputOptions(CLI::App& command, MeshRequest& request) {
   addAdaptiveGrid(command, request, grids);
   addAttribute(command, request, grids);
   addVolumeOptions(command, request.volume, "For volumes");
-  const auto scenes = "For scenes";
+  const auto scenes = "For scenes and meshes";
   addReal(command, "--voxel-size", request.voxelSize, positive, "a finite number > 0", "Edge of a cell, in world units")
       ->type_name("H")
       ->group(scenes);
   addInteger(command, "--resolution", request.resolution, 1, kMaxVoxelsPerAxis,
-             "Cells along the longest side of the box")
+             "Cells along the longest side of the box (meshes: 128)")
       ->type_name("N")
+      ->group(scenes);
+  addReal(command, "--shell", request.shell, positive, "a finite number > 0",
+          "Of a mesh only a wall of thickness T, inwards from its\nsurface; after --offset")
+      ->type_name("T")
       ->group(scenes);
 }
 
@@ -121,7 +125,7 @@ void refuseOther(bool given, const char* name, const char* takers) {
   if (given) throw CLI::ValidationError(name, fmt::format("goes with {} only", takers));
 }
 
-/// What goes neither with volumes nor with scenes.
+/// What neither volumes nor scenes nor meshes have.
 void refuseGridOptions(const MeshRequest& request) {
   const auto grids = ".vdb inputs";
   refuseOther(request.grid.has_value(), "--grid", grids);
@@ -132,9 +136,20 @@ void refuseGridOptions(const MeshRequest& request) {
   refuseOther(request.allAttributes || !request.attributes.empty(), "--attribute", grids);
 }
 
+/// What neither scenes nor meshes have.
+void refuseValueOptions(const MeshRequest& request) {
+  const auto values = "grids and volumes";
+  refuseGridOptions(request);
+  refuseOther(request.hermite.has_value(), "--hermite", values);
+  refuseOther(request.gridClass.has_value(), "--class", values);
+  refuseOther(request.inside.has_value(), "--inside", values);
+}
+
 }  // namespace
 
 InputOptions MeshRequest::inputOptions() const {
+  GridStepsRequest ofGrid = steps;
+  if (ofMesh()) ofGrid.steps.offset.reset();
   return {.iso = iso,
           .open = open,
           .acceptNonFinite = acceptNonFinite.value_or(false),
@@ -148,12 +163,14 @@ InputOptions MeshRequest::inputOptions() const {
           .attributes = attributes,
           .allAttributes = allAttributes,
           .adaptiveGrid = adaptiveGrid,
-          .steps = loadGridSteps(steps, input, acceptNonFinite.value_or(false), open),
+          .steps = loadGridSteps(ofGrid, input, acceptNonFinite.value_or(false), open),
           .meshToLevelSet = steps.meshToLevelSet,
           .volume = volume,
           .isoFromOtsu = isoFromOtsu,
           .voxelSize = voxelSize,
-          .resolution = resolution};
+          .resolution = resolution,
+          .offset = ofMesh() ? steps.steps.offset : std::nullopt,
+          .shell = shell};
 }
 
 std::vector<std::string> MeshRequest::ownProperties() const {
@@ -261,7 +278,10 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
 
 void addMeshOptions(CLI::App& command, MeshRequest& request) {
   command
-      .add_option("INPUT", request.input, ".vdb, a volume (.nii.gz, .nrrd, .mha,\n.npy, ...), or a scene: .yaml, .yml")
+      .add_option(
+          "INPUT", request.input,
+          ".vdb, a volume (.nii.gz, .nrrd, .mha,\n.npy, ...), a scene (.yaml, .yml), or a mesh:\n.ply, .obj, .off, "
+          ".stl")
       ->required()
       ->type_name("");
   command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
@@ -294,20 +314,21 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
 }
 
 void checkMeshRequest(const MeshRequest& request) {
+  refuseOther(request.shell && !request.ofMesh(), "--shell", "meshes");
   if (request.kind() != InputKind::kVolume) {
     refuseVolumeOptions(request.volume);
     refuseOther(request.isoFromOtsu, "--iso otsu", "volumes");
   }
   switch (request.kind()) {
     case InputKind::kVolume:
-      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
-      refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes and meshes");
+      refuseOther(request.resolution.has_value(), "--resolution", "scenes and meshes");
       refuseOther(request.steps.meshToLevelSet.has_value(), "--mesh-to-level-set", "meshes");
       refuseGridOptions(request);
       break;
     case InputKind::kGrid:
-      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes");
-      refuseOther(request.resolution.has_value(), "--resolution", "scenes");
+      refuseOther(request.voxelSize.has_value(), "--voxel-size", "scenes and meshes");
+      refuseOther(request.resolution.has_value(), "--resolution", "scenes and meshes");
       checkNoiseGrid(request, "--sigma-grid", request.sigmaGrid);
       checkNoiseGrid(request, "--weight-grid", request.weightGrid);
       checkNoiseGrid(request, "--adaptive-grid", request.adaptiveGrid);
@@ -316,16 +337,21 @@ void checkMeshRequest(const MeshRequest& request) {
       refuseOther(!request.steps.empty() && request.weightGrid, "--weight-grid", "grids without steps");
       break;
     case InputKind::kScene:
-      refuseOther(request.hermite.has_value(), "--hermite", "grids and volumes");
-      refuseOther(request.gridClass.has_value(), "--class", "grids and volumes");
-      refuseOther(request.inside.has_value(), "--inside", "grids and volumes");
-      refuseGridOptions(request);
+      refuseValueOptions(request);
       refuseOther(!request.steps.empty(), "a step on grids", "grids and volumes");
+      break;
+    case InputKind::kMesh:
+      if (request.steps.meshToLevelSet) break;
+      refuseValueOptions(request);
+      refuseOther(request.iso.has_value(), "--iso", "grids, volumes and scenes");
+      refuseOther(request.open, "--open", "grids, volumes and scenes");
+      refuseOther(!request.steps.isOffsetOnly(), "a step on grids but --offset", "grids and volumes");
       break;
     case InputKind::kOther:
       if (request.steps.meshToLevelSet) break;
-      throw Error(fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml or a volume's",
-                              request.input.string()));
+      throw Error(fmt::format(
+          "'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml, .ply, .obj, .off, .stl or a volume's",
+          request.input.string()));
   }
   const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
   refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");

@@ -28,7 +28,7 @@ struct MeshRequest {
   bool allAttributes = false;  ///< True for --attribute all.
   GridStepsRequest steps;
   VolumeReadOptions volume;
-  std::optional<double> iso, sigmaNormal, voxelSize;
+  std::optional<double> iso, sigmaNormal, voxelSize, shell;
   std::optional<int> resolution, threads;
   Placement placement = Placement::kCertified;
   std::optional<SuffixedLength> adaptive;
@@ -44,6 +44,8 @@ struct MeshRequest {
   [[nodiscard]] InputKind kind() const { return volume.raw ? InputKind::kVolume : inputKind(input); }
   /// How to read the input, and what is done to a grid. \throws Error where steps name files that cannot be read.
   [[nodiscard]] InputOptions inputOptions() const;
+  /// Whether the input is a mesh that is contoured itself, not its level set.
+  [[nodiscard]] bool ofMesh() const { return kind() == InputKind::kMesh && !steps.meshToLevelSet; }
   /// What it asks vertices to have besides attributes.
   [[nodiscard]] std::vector<std::string> ownProperties() const;
   /// How to contour it; `otherSigma`, or σn from the data, holds where the command line does not say sigma.
@@ -78,8 +80,8 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
 void addGridMeaning(CLI::App& command, MeshRequest& request, const std::string& group);
 
 /// \throws CLI::ValidationError for options that do not go with the kind of input, or a report that would replace the
-/// input or the output; Error for an input that is no grid, volume or scene, and for σ, weight and adaptive grids
-/// without a name or with that of the grid.
+/// input or the output; Error for an input that is of no kind, and for σ, weight and adaptive grids without a name or
+/// with that of the grid.
 void checkMeshRequest(const MeshRequest& request);
 
 }  // namespace pdc

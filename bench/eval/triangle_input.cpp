@@ -10,7 +10,7 @@ namespace pdc::eval {
 namespace {
 
 Mesh readOrContour(const std::filesystem::path& file) {
-  if (inputKind(file) == InputKind::kOther) return readMesh(file);
+  if (inputKind(file) == InputKind::kMesh) return readMesh(file);
   const Input input = openInput(file);
   return contour(*input.source, {.sigmaNormal = input.sigmaNormal});
 }

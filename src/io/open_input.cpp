@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/file/suffix.h"
+#include "io/open_mesh.h"
 #include "io/open_volume.h"
 #include "io/vdb/grid_warnings.h"
 #include "pdc/error.h"
@@ -35,13 +36,24 @@ void refuseVolumeOptions(const fs::path& path, const InputOptions& options) {
   refuseOther(volume.frame != WorldFrame::kFile, path, "a frame", volumes);
 }
 
-void checkGridOptions(const fs::path& path, const InputOptions& options) {
-  refuseVolumeOptions(path, options);
-  refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes");
-  refuseOther(options.resolution.has_value(), path, "a resolution", "scenes");
+void checkNotOfMesh(const fs::path& path, const InputOptions& options) {
+  refuseOther(options.offset.has_value(), path, "an offset of a mesh", "meshes");
+  refuseOther(options.shell.has_value(), path, "a shell", "meshes");
 }
 
-/// What goes neither with dense volumes nor with scenes.
+/// What neither grids nor dense volumes have.
+void refuseCellSize(const fs::path& path, const InputOptions& options) {
+  refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes and meshes");
+  refuseOther(options.resolution.has_value(), path, "a resolution", "scenes and meshes");
+  checkNotOfMesh(path, options);
+}
+
+void checkGridOptions(const fs::path& path, const InputOptions& options) {
+  refuseVolumeOptions(path, options);
+  refuseCellSize(path, options);
+}
+
+/// What goes with grids alone.
 void refuseGridOptions(const fs::path& path, const InputOptions& options) {
   const auto grids = ".vdb inputs";
   refuseOther(options.grid.has_value(), path, "a grid's name", grids);
@@ -54,22 +66,35 @@ void refuseGridOptions(const fs::path& path, const InputOptions& options) {
 
 void checkVolumeOptions(const fs::path& path, const InputOptions& options) {
   refuseGridOptions(path, options);
-  refuseOther(options.voxelSize.has_value(), path, "a voxel size", "scenes");
-  refuseOther(options.resolution.has_value(), path, "a resolution", "scenes");
+  refuseCellSize(path, options);
   if (options.isoFromOtsu && options.iso) throw Error("an isovalue excludes Otsu's threshold");
 }
 
-void checkSceneOptions(const fs::path& path, const InputOptions& options) {
+/// What neither scenes nor meshes have, and what both have.
+void checkOptionsWithoutValues(const fs::path& path, const InputOptions& options) {
   refuseVolumeOptions(path, options);
   refuseGridOptions(path, options);
-  const auto grids = "grids and volumes";
-  refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", grids);
-  refuseOther(options.gridClass.has_value(), path, "a grid's class", grids);
-  refuseOther(options.inside.has_value(), path, "a side that is inside", grids);
-  refuseOther(!options.steps.empty(), path, "what is done to grids", grids);
+  const auto values = "grids and volumes";
+  refuseOther(options.hermite != HermiteMode::kAuto, path, "a choice of planes", values);
+  refuseOther(options.gridClass.has_value(), path, "a grid's class", values);
+  refuseOther(options.inside.has_value(), path, "a side that is inside", values);
   if (options.voxelSize && options.resolution) throw Error("a voxel size excludes a resolution");
   if (options.resolution && (*options.resolution < 1 || *options.resolution > kMaxVoxelsPerAxis))
     throw Error(fmt::format("the resolution must be from 1 to {}, not {}", kMaxVoxelsPerAxis, *options.resolution));
+}
+
+void checkSceneOptions(const fs::path& path, const InputOptions& options) {
+  checkOptionsWithoutValues(path, options);
+  refuseOther(!options.steps.empty(), path, "what is done to grids", "grids and volumes");
+  checkNotOfMesh(path, options);
+}
+
+void checkMeshOptions(const fs::path& path, const InputOptions& options) {
+  checkOptionsWithoutValues(path, options);
+  const auto others = ".vdb inputs and scenes";
+  refuseOther(options.iso.has_value(), path, "an isovalue", others);
+  refuseOther(options.open, path, "an open surface", others);
+  refuseOther(!options.steps.empty(), path, "what is done to grids", "grids and volumes");
 }
 
 std::string whyGridIsEmpty(const fs::path& path, const std::string& name, double iso) {
@@ -254,6 +279,9 @@ InputKind inputKind(const fs::path& path) {
   const std::string suffix = detail::suffixOf(path);
   if (suffix == ".vdb") return InputKind::kGrid;
   if (suffix == ".yaml" || suffix == ".yml") return InputKind::kScene;
+  const fs::path plain = suffix == ".gz" ? path.stem() : path;
+  for (const char* mesh : {".ply", ".obj", ".off", ".stl"})
+    if (detail::suffixOf(plain) == mesh) return InputKind::kMesh;
   return isVolumeFile(path) ? InputKind::kVolume : InputKind::kOther;
 }
 
@@ -269,6 +297,8 @@ std::string_view planeOriginName(PlaneOrigin origin) {
       return "distance";
     case PlaneOrigin::kFunction:
       return "function";
+    case PlaneOrigin::kTriangle:
+      return "triangle";
   }
   return "";
 }
@@ -296,11 +326,15 @@ Input openInput(const fs::path& path, const InputOptions& options, const Monitor
       return options.steps.empty() ? openGrid(path, options) : openProcessed(path, options, monitor);
     case InputKind::kScene:
       return openScene(path, options);
+    case InputKind::kMesh:
+      checkMeshOptions(path, options);
+      return detail::openMesh(path, options, monitor);
     case InputKind::kOther:
       break;
   }
-  throw Error(
-      fmt::format("'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml or a volume's", path.string()));
+  throw Error(fmt::format(
+      "'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml, .ply, .obj, .off, .stl or a volume's",
+      path.string()));
 }
 
 }  // namespace pdc

@@ -192,8 +192,8 @@ TEST_F(MeshErrors, NumbersAreReadStrictly) {
 }
 
 TEST_F(MeshErrors, OptionsOfTheOtherKindOfInput) {
-  expectRefusal({mBullet, "--voxel-size", "1"}, kUsage, {"--voxel-size", "scenes only"});
-  expectRefusal({mBullet, "--resolution", "10"}, kUsage, {"--resolution", "scenes only"});
+  expectRefusal({mBullet, "--voxel-size", "1"}, kUsage, {"--voxel-size", "scenes and meshes only"});
+  expectRefusal({mBullet, "--resolution", "10"}, kUsage, {"--resolution", "scenes and meshes only"});
   expectRefusal({"any.yaml", "--grid", "a"}, kUsage, {"--grid", ".vdb inputs only"});
 }
 

@@ -172,13 +172,14 @@ TEST_F(SweepCommand, BadRequestsFailInOneLine) {
   expectRefusal({mScene, mOut, "--adaptive=0,1", "--sigma-n=0,1"}, 2, {"--adaptive", "--sigma-n", "several values"});
   expectRefusal({mScene, mOut, "--iso=0,1", "--sigma-n=0,1"}, 2, {"--iso", "--sigma-n", "several values"});
   expectRefusal({mScene, mOut, "--view", "sideways"}, 2, {"--view", "sideways"});
-  expectRefusal({bulletGrid(), mOut, "--voxel-size=1,2"}, 2, {"--voxel-size", "scenes only"});
+  expectRefusal({bulletGrid(), mOut, "--voxel-size=1,2"}, 2, {"--voxel-size", "scenes and meshes only"});
   expectRefusal({mScene}, 2, {"OUTDIR"});
 }
 
 TEST_F(SweepCommand, BadFilesFailInOneLine) {
   expectRefusal({mFolder / "none.vdb", mOut}, 1, {"none.vdb", "No such file"});
-  expectRefusal({mFolder.write("mesh.obj", "v 0 0 0\n"), mOut}, 1, {"mesh.obj", ".vdb"});
+  expectRefusal({mFolder.write("notes.txt", "v 0 0 0\n"), mOut}, 1, {"notes.txt", ".vdb"});
+  expectRefusal({mFolder.write("mesh.obj", "v 0 0 0\n"), mOut}, 1, {"mesh.obj", "no faces"});
   expectRefusal({mScene, mFolder / "none/out"}, 1, {"none/out", "No such file"});
   expectRefusal({mScene, mFolder.write("file", "x")}, 1, {"file", "folder"});
   expectRefusal({mScene, mOut, "--reference", mFolder / "none.ply"}, 1, {"none.ply", "No such file"});

@@ -13,13 +13,14 @@ declare -A floor_of=(
 readonly ground=-1 apps=10
 # By folder within a floor. Rooms of one rank do not know each other.
 declare -A room_of=(
-  [mesh]=0 [mesh/welding]=1 [mesh/polygons]=1 [mesh/intersections]=1 [mesh/local]=1 [mesh/reports]=2
+  [mesh]=0 [mesh/welding]=1 [mesh/polygons]=1 [mesh/intersections]=1 [mesh/local]=1 [mesh/reports]=2 [mesh/winding]=2
   [simplify]=0 [simplify/clustering]=1 [simplify/error_bound]=1 [simplify/pair_contraction]=1 [simplify/decimation]=2
-  [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/stencils]=2 [sample/dense]=3 [sample/vdb]=3
+  [sample]=0 [sample/creases]=1 [sample/implicit]=1 [sample/meaning]=1 [sample/mesh]=2 [sample/stencils]=2
+  [sample/dense]=3 [sample/vdb]=3
   [extract/topology]=0 [extract/vertices]=1 [extract/faces]=2 [extract/conflicts]=3 [extract/certify]=4 [extract]=5
   [grid]=0 [grid/dense]=1 [grid/description]=1
   [field]=0 [field/primitives]=1 [field/operators]=1
-  [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=1 [io/scene]=2 [io]=4
+  [io/file]=0 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=1 [io/scene]=4 [io]=5
   [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps]=5
 )
 

@@ -47,7 +47,8 @@ TEST(InputKind, GoesByTheSuffixInAnyCase) {
   EXPECT_EQ(inputKind("folder.yaml/a.VDB"), InputKind::kGrid);
   EXPECT_EQ(inputKind("a.yaml"), InputKind::kScene);
   EXPECT_EQ(inputKind("a.Yml"), InputKind::kScene);
-  for (const char* name : {"a.ply", "vdb", ".vdb", "a.vdb.gz", "a", ""}) EXPECT_EQ(inputKind(name), InputKind::kOther);
+  for (const char* name : {"a.ply", "a.OBJ", "b/a.off", "a.stl"}) EXPECT_EQ(inputKind(name), InputKind::kMesh) << name;
+  for (const char* name : {"vdb", ".vdb", "a.vdb.gz", "a", ""}) EXPECT_EQ(inputKind(name), InputKind::kOther);
 }
 
 TEST_F(OpenInput, AGridSaysWhatItsSourceSays) {
@@ -184,8 +185,8 @@ TEST_F(OpenInput, WhyThereIsNoSurface) {
 
 TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
   const auto grid = write({sphere()});
-  EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes only"));
-  EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes only"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes and meshes only"));
+  EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes and meshes only"));
   const InputOptions forGrids[] = {{.grid = "a"},
                                    {.hermite = HermiteMode::kGradient},
                                    {.gridClass = GridClass::kLevelSet},
@@ -198,7 +199,7 @@ TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
 }
 
 TEST_F(OpenInput, Refusals) {
-  EXPECT_TRUE(mentions(errorOfOpening("mesh.obj", {}), "'mesh.obj': not a kind of input"));
+  EXPECT_TRUE(mentions(errorOfOpening("mesh.txt", {}), "'mesh.txt': not a kind of input"));
   EXPECT_TRUE(mentions(errorOfOpening(mFolder / "none.vdb", {}), "No such file"));
   EXPECT_TRUE(mentions(errorOfOpening(mFolder / "none.yaml", {}), "No such file"));
   EXPECT_TRUE(mentions(errorOfOpening(scene(), {.voxelSize = 1, .resolution = 9}), "excludes"));

@@ -20,12 +20,19 @@
 
 namespace pdc {
 
-/// What a file holds, by its suffix in upper or lower case: .vdb is a grid, .yaml and .yml are scenes, isVolumeFile()
-/// knows volumes.
-enum class InputKind { kGrid, kScene, kVolume, kOther };
+/// What a file holds, by its suffix in upper or lower case: .vdb is a grid, .yaml and .yml are scenes, .ply, .obj, .off
+/// and .stl, also compressed (.ply.gz), are meshes, isVolumeFile() knows volumes.
+enum class InputKind { kGrid, kScene, kVolume, kMesh, kOther };
 
 /// Looks at the name alone; the file need not exist.
 [[nodiscard]] InputKind inputKind(const std::filesystem::path& path);
+
+/// Voxels along the longest side of a mesh's box where nothing is said.
+inline constexpr int kMeshResolution = 128;
+
+/// The σn of meshes where nothing is said: their normals are exact, but where triangles are smaller than voxels a patch
+/// sees few of them. Creases of parts are then exact to 0.001 voxel.
+inline constexpr double kMeshSigmaNormal = 0.02;
 
 /// How to read an input. What is empty, false or kAuto is not asked for, and goes with every kind of input.
 struct InputOptions {
@@ -55,9 +62,14 @@ struct InputOptions {
   VolumeReadOptions volume{};  ///< With `raw` any file is a volume.
   bool isoFromOtsu = false;    ///< The isovalue is otsuThreshold(); excludes `iso`.
 
-  // For scenes only; at most one of them. Neither: what the scene says.
+  // For scenes and meshes only; at most one of them. Neither: what the scene says, or kMeshResolution.
   std::optional<double> voxelSize{};  ///< World units, > 0.
   std::optional<int> resolution{};    ///< Voxels along the longest side of the box, 1 to kMaxVoxelsPerAxis.
+
+  // For meshes only.
+  std::optional<double> offset{};  ///< The surface goes outwards by this, or inwards below 0; world units, finite.
+  /// Only a wall of this thickness is left, inwards from the surface; world units, > 0.
+  std::optional<double> shell{};
 };
 
 /// Where the planes of an input come from.
@@ -65,9 +77,10 @@ enum class PlaneOrigin {
   kGradient,  ///< A grid's gradients at the crossings.
   kDistance,  ///< Beside creases, a grid's distances; see GridSource.
   kFunction,  ///< The gradients of a scene's function.
+  kTriangle,  ///< The triangles of a mesh.
 };
 
-/// "gradient", "distance" or "function", as reports have it.
+/// "gradient", "distance", "function" or "triangle", as reports have it.
 [[nodiscard]] std::string_view planeOriginName(PlaneOrigin origin);
 
 /// A grid whose values the mesh's vertices may have; see gridAttribute().
@@ -82,12 +95,18 @@ struct InputVolume {
   std::array<std::int64_t, 3> size{};
 };
 
+/// How a mesh is read that is an input.
+struct InputMeshFacts {
+  std::size_t triangles = 0, openEdges = 0;  ///< See MeshSourceFacts.
+  double voxelSize = 0;                      ///< World units.
+};
+
 /// An input that is ready to be contoured.
 struct Input {
   std::unique_ptr<const HermiteSource> source;  ///< Owns what it reads from; never null.
   double iso = 0;                               ///< In the grid's or the function's own units.
-  std::optional<double> sigmaNormal{};          ///< σn (no unit, >= 0 or infinite), if a scene says one.
-  FieldPtr field{};  ///< For a scene: zero on the surface that the mesh should have. Null for a grid.
+  std::optional<double> sigmaNormal{};  ///< σn (no unit, >= 0 or infinite) of a scene that says one, or of a mesh.
+  FieldPtr field{};  ///< For scenes and meshes: zero on the surface that the result should have. Null for a grid.
   std::function<double(const Vec3d&)> adaptiveScale{};  ///< See ContourOptions; the adaptive grid's, if there is one.
   std::vector<InputAttribute> attributes{};             ///< As asked for.
   std::optional<Box> cut{};  ///< Where a scene's solid is cut off and closed; empty for a grid and an open surface.
@@ -96,6 +115,7 @@ struct Input {
   std::size_t refusedNoise = 0;  ///< Values of the σ and weight grids that are negative or not finite; they count as 0.
   std::size_t crossingsWithoutData = 0;  ///< See GridSource.
   std::optional<GridMeaning> meaning{};  ///< How a grid is read, and why. Empty for a scene.
+  std::optional<InputMeshFacts> mesh{};  ///< For a mesh only.
   std::vector<GridStepReport> steps{};   ///< What was done to the grid.
   std::optional<InputVolume> volume{};   ///< Empty for other inputs than dense volumes.
   /// Where the data may mean something else than it was taken for or makes a poor surface: a line each, which names the
@@ -105,13 +125,13 @@ struct Input {
   std::function<std::string()> whyEmpty;
 };
 
-/// Reads a .vdb grid, a dense volume or a scene and makes the source that `pdc mesh` contours. A grid is wholly in
-/// memory afterwards, a volume as far as it is compressed; OpenVDB is initialised on the way. The monitor is that of
+/// Reads a .vdb grid, a dense volume, a scene or a mesh and makes the source that `pdc mesh` contours. A grid is wholly
+/// in memory afterwards, a volume as far as it is compressed; OpenVDB is initialised on the way. The monitor is that of
 /// the steps; nothing can be stopped while OpenVDB reads. \throws Error for another kind of file, options that go with
 /// another kind of input, both a voxel size and a resolution, a σ, weight or adaptive grid or an attribute without a
 /// name or that is the grid itself, a σ or weight grid with steps, an attribute that is named twice; whatever
 /// processGrid(), readVdbGrid(), readVdbAttribute(), gridFunction(), GridSource, readVolume(), otsuThreshold(),
-/// DenseSource, readScene() and FieldSource throw.
+/// DenseSource, readScene(), readMesh() and FieldSource throw.
 [[nodiscard]] Input openInput(const std::filesystem::path& path, const InputOptions& options = {},
                               const Monitor& monitor = {});
 

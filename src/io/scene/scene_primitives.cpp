@@ -100,6 +100,7 @@ constexpr std::array kPrimitives{
     ShapeKind{"simplex_noise", readSimplexNoise},
     ShapeKind{"formula", readFormula},
     ShapeKind{"grid", readGridShape},
+    ShapeKind{"mesh", readMeshShape},
 };
 
 }  // namespace

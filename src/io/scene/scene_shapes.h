@@ -31,6 +31,8 @@ struct ShapeKind {
 [[nodiscard]] std::span<const ShapeKind> sceneOperators();
 /// The shape `grid`. \throws YamlError, or Error where the .vdb file cannot be read.
 [[nodiscard]] FieldPtr readGridShape(const YamlValue& parameters, SceneContext& context);
+/// The shape `mesh`. \throws YamlError, or Error where the file cannot be read or has no triangles.
+[[nodiscard]] FieldPtr readMeshShape(const YamlValue& parameters, SceneContext& context);
 
 /// Reads a shape and all that is in it: a map with one key, the shape's name. \throws YamlError.
 [[nodiscard]] FieldPtr readShape(const YamlValue& value, SceneContext& context);

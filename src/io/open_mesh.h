@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pdc/io/open_input.h"
+
+namespace pdc::detail {
+
+/// Opens a mesh file that is to be contoured: see openInput(). Options that do not go with meshes have been refused.
+[[nodiscard]] Input openMesh(const std::filesystem::path& path, const InputOptions& options, const Monitor& monitor);
+
+}  // namespace pdc::detail
