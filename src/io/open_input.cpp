@@ -91,7 +91,7 @@ void checkSceneOptions(const fs::path& path, const InputOptions& options) {
 
 void checkMeshOptions(const fs::path& path, const InputOptions& options) {
   checkOptionsWithoutValues(path, options);
-  const auto others = ".vdb inputs and scenes";
+  const auto others = "grids, volumes and scenes";
   refuseOther(options.iso.has_value(), path, "an isovalue", others);
   refuseOther(options.open, path, "an open surface", others);
   refuseOther(!options.steps.empty(), path, "what is done to grids", "grids and volumes");
