@@ -1,3 +1,4 @@
+#include "folders.h"
 #include "pdc/sample/mesh/mesh_source.h"
 
 #include <gtest/gtest.h>
@@ -118,7 +119,7 @@ TEST(MeshSource, Refusals) {
 }
 
 TEST(MeshSource, FilesOfPartsKeepTheirShape) {
-  const std::filesystem::path folder = std::filesystem::path(PDC_DATA_DIR) / "mesh";
+  const std::filesystem::path folder = test::dataFolder() / "mesh";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   for (const char* name : {"fandisk_13k.off", "cgal_joint.off", "wingnut_cad.obj", "cad_angle_block.stl",
                            "cad_featuretype.stl", "cad_cycloidal_assembly.ply", "plane_holes.obj",
