@@ -101,6 +101,8 @@ void runGrid(const MeshRequest& request) {
   GridRun run;
   detail::Stopwatch stopwatch;
   {
+    // OpenVDB's reading and some of its tools cannot be asked to stop.
+    const ExitOnInterrupt scope;
     ProgressBar bar(!request.quiet);
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
     run.grid = detail::withThreads(request.threads.value_or(0), [&] {

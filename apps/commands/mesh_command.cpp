@@ -264,92 +264,114 @@ void checkRequest(const MeshRequest& request) {
   checkJsonPath(request.json);
 }
 
-/// The reports of a sequence's frames, a line for each; those for standard output are printed as they come.
+/// The reports of a sequence's frames, a line for each, in their order.
 class FrameReports {
  public:
-  explicit FrameReports(std::filesystem::path path) : mPath(std::move(path)) {}
+  explicit FrameReports(const std::filesystem::path& path) : mLines(path) {}
 
-  void add(nlohmann::ordered_json report, int frame) {
+  void add(const nlohmann::ordered_json& report, int frame) {
     nlohmann::ordered_json line{{"frame", frame}};
     line.update(report);
-    mLines += jsonLine(line) + "\n";
-    if (mPath != "-") return;
-    writeText(mLines, mPath);
-    std::fflush(stdout);
-    mLines.clear();
-  }
-  void finish() const {
-    if (mPath != "-") writeText(mLines, mPath);
+    mLines.add(line);
   }
 
  private:
-  const std::filesystem::path mPath;
-  std::string mLines;
+  JsonLines mLines;
 };
 
 /// What a sequence did, by numbers of frames.
 struct FrameCounts {
-  std::size_t done = 0, failed = 0;
+  std::size_t there = 0, failed = 0;
 };
 
-/// Contours frames that are there, each while the next is read.
-FrameCounts runThere(const std::vector<int>& numbers, const std::vector<MeshRequest>& frames, FrameReports& reports) {
-  const auto begin = [&](std::size_t i) {
-    return std::async(std::launch::async,
-                      [&frame = frames[i]] { return readInput(frame, {.progress = {}, .stop = &interruptFlag()}); });
+struct Frame {
+  int number;
+  bool isThere;
+};
+
+/// What is to be done for each frame of a sequence.
+class FrameRequests {
+ public:
+  explicit FrameRequests(const MeshRequest& all)
+      : mAll(all), mInputs(all.input.string(), "INPUT"), mOutputs(all.output.string(), "OUTPUT") {}
+
+  [[nodiscard]] MeshRequest of(int number) const {
+    MeshRequest request = mAll;
+    request.input = mInputs.of(number);
+    request.output = mOutputs.of(number);
+    return request;
+  }
+
+ private:
+  const MeshRequest& mAll;
+  FrameNames mInputs, mOutputs;
+};
+
+/// Contours a frame that was read. \returns whether that worked.
+bool runFrame(const MeshRequest& request, int number, std::future<ReadInput>& reading, FrameReports& reports) {
+  MeshRun run;
+  run.frame = fmt::format("frame {}: ", number);
+  try {
+    const ReadInput read = reading.get();
+    contourAndWrite(request, read, run);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("pdc: {}{}\n", run.frame, error.what()).c_str(), stderr);
+    reports.add({{"input", request.input.string()}, {"error", error.what()}}, number);
+    return false;
+  }
+  reports.add(toJson(request, run), number);
+  if (!request.quiet && request.json != "-")
+    fmt::print("{}{}: {} vertices, {}; {:.2f} s\n", run.frame, request.output.string(), run.vertices, facesText(run),
+               run.secondsTotal);
+  return true;
+}
+
+/// Contours the frames that are there, each while the next is read.
+FrameCounts runInOrder(const FrameRequests& requests, const std::vector<Frame>& frames, FrameReports& reports) {
+  auto toRead = frames.begin();
+  const auto beginNext = [&]() -> std::future<ReadInput> {
+    toRead = std::find_if(toRead, frames.end(), [](const Frame& f) { return f.isThere; });
+    if (toRead == frames.end()) return {};
+    return std::async(std::launch::async, [request = requests.of((toRead++)->number)] {
+      return readInput(request, {.progress = {}, .stop = &interruptFlag()});
+    });
   };
   FrameCounts counts;
-  std::future<ReadInput> next;
-  if (!frames.empty()) next = begin(0);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  std::future<ReadInput> next = beginNext();
+  for (const auto& [number, isThere] : frames) {
+    const MeshRequest request = requests.of(number);
+    if (!isThere) {
+      reports.add({{"input", request.input.string()}, {"missing", true}}, number);
+      continue;
+    }
     std::future<ReadInput> now = std::move(next);
     now.wait();
-    if (i + 1 < frames.size()) next = begin(i + 1);
-    MeshRun run;
-    run.frame = fmt::format("frame {}: ", numbers[i]);
-    try {
-      const ReadInput read = now.get();
-      contourAndWrite(frames[i], read, run);
-      reports.add(toJson(frames[i], run), numbers[i]);
-      ++counts.done;
-      if (!frames[i].quiet && frames[i].json != "-")
-        fmt::print("{}{}: {} vertices, {}; {:.2f} s\n", run.frame, frames[i].output.string(), run.vertices,
-                   facesText(run), run.secondsTotal);
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const std::exception& error) {
-      std::fputs(fmt::format("pdc: {}{}\n", run.frame, error.what()).c_str(), stderr);
-      reports.add({{"input", frames[i].input.string()}, {"error", error.what()}}, numbers[i]);
-      ++counts.failed;
-    }
+    next = beginNext();
+    ++counts.there;
+    if (!runFrame(request, number, now, reports)) ++counts.failed;
   }
   return counts;
 }
 
 void runFrames(const MeshRequest& request) {
-  const FrameNames inputs(request.input.string(), "INPUT"), outputs(request.output.string(), "OUTPUT");
+  const FrameRequests requests(request);
   // Files appear when they are complete, and reading cannot be asked to stop.
   const ExitOnInterrupt scope;
-  FrameReports reports(request.json);
-  std::vector<int> numbers;
-  std::vector<MeshRequest> frames;
+  std::vector<Frame> frames;
   for (const int number : request.frames->numbers()) {
-    MeshRequest frame = request;
-    frame.input = inputs.of(number);
-    frame.output = outputs.of(number);
+    const MeshRequest frame = requests.of(number);
     if (frames.empty()) checkRequest(frame);
-    if (std::filesystem::exists(frame.input)) {
-      numbers.push_back(number);
-      frames.push_back(std::move(frame));
-      continue;
-    }
-    printWarning(fmt::format("frame {}: '{}' is not there", number, frame.input.string()));
-    reports.add({{"input", frame.input.string()}, {"missing", true}}, number);
+    const bool isThere = std::filesystem::exists(frame.input);
+    if (!isThere) printWarning(fmt::format("frame {}: '{}' is not there", number, frame.input.string()));
+    frames.push_back({number, isThere});
   }
-  if (frames.empty()) throw Error(fmt::format("'{}': no frame is there", request.input.string()));
-  const FrameCounts counts = runThere(numbers, frames, reports);
-  reports.finish();
-  if (counts.failed > 0) throw Error(fmt::format("{} of {} frames failed", counts.failed, frames.size()));
+  if (std::none_of(frames.begin(), frames.end(), [](const Frame& f) { return f.isThere; }))
+    throw Error(fmt::format("'{}': no frame is there", request.input.string()));
+  FrameReports reports(request.json);
+  const FrameCounts counts = runInOrder(requests, frames, reports);
+  if (counts.failed > 0) throw Error(fmt::format("{} of {} frames failed", counts.failed, counts.there));
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
 #include <string>
 
 #include "io/file/atomic_file.h"
+#include "io/file/file_error.h"
 
 namespace pdc {
 namespace {
@@ -36,6 +39,23 @@ void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& 
 
 std::string jsonLine(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void JsonLines::add(const nlohmann::ordered_json& json) {
+  if (mPath.empty()) return;
+  const std::string line = jsonLine(json) + "\n";
+  if (mPath == "-") {
+    fmt::print("{}", line);
+    std::fflush(stdout);
+    return;
+  }
+  // Without a buffer each line is written as one.
+  if (!mFile.is_open()) {
+    mFile.rdbuf()->pubsetbuf(nullptr, 0);
+    mFile.open(mPath, std::ios::binary | std::ios::trunc);
+  }
+  if (!mFile.write(line.data(), static_cast<std::streamsize>(line.size())).flush())
+    throw detail::fileError(mPath, "cannot be written", errno);
 }
 
 void writeText(const std::string& text, const std::filesystem::path& path) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 namespace pdc {
 
@@ -21,6 +23,20 @@ void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& 
 
 /// A report in one line, without its end.
 [[nodiscard]] std::string jsonLine(const nlohmann::ordered_json& json);
+
+/// Reports of long work, a line for each as it comes: in a file, which is begun with the first and holds whole lines at
+/// any time, or on standard output for "-"; nothing for an empty path.
+class JsonLines {
+ public:
+  explicit JsonLines(std::filesystem::path path) : mPath(std::move(path)) {}
+
+  /// \throws Error if it cannot be written.
+  void add(const nlohmann::ordered_json& json);
+
+ private:
+  const std::filesystem::path mPath;
+  std::ofstream mFile;
+};
 
 /// Writes text likewise, as it is.
 void writeText(const std::string& text, const std::filesystem::path& path);

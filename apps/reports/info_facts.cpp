@@ -42,10 +42,10 @@ Json toJson(const VdbGridInfo& grid) {
 
 /// What helps to choose an isovalue and steps. Values of other types than float and double are not looked at, and a
 /// grid that cannot be read as a volume is no failure here.
-void describe(const std::filesystem::path& path, const VdbGridInfo& grid, Json& facts) {
-  if (!(grid.valueType == "float" || grid.valueType == "double") || grid.activeVoxels == 0) return;
+void describe(const VdbGridInfo& info, const openvdb::GridBase::ConstPtr& grid, Json& facts) {
+  if (!(info.valueType == "float" || info.valueType == "double") || info.activeVoxels == 0) return;
   try {
-    const GridDescription d = describeGrid(readVdbGrid(path, grid.name));
+    const GridDescription d = describeGrid(grid);
     facts["read_as"] = nameOf(d.meaning.gridClass);
     facts["inside"] = nameOf(d.meaning.inside);
     facts["iso"] = d.meaning.iso;
@@ -65,10 +65,10 @@ void describe(const std::filesystem::path& path, const VdbGridInfo& grid, Json& 
 
 Json gridFacts(const std::filesystem::path& path) {
   Json facts{{"kind", "grids"}, {"grids", Json::array()}};
-  for (const VdbGridInfo& grid : listVdbGrids(path)) {
-    facts["grids"].push_back(toJson(grid));
-    describe(path, grid, facts["grids"].back());
-  }
+  visitVdbGrids(path, [&](const VdbGridInfo& info, const openvdb::GridBase::Ptr& grid) {
+    facts["grids"].push_back(toJson(info));
+    describe(info, grid, facts["grids"].back());
+  });
   return facts;
 }
 

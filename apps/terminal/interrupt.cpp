@@ -14,9 +14,15 @@ std::atomic<bool> gInterrupted = false;
 std::atomic<int> gExitScopes = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+void show(std::string_view text) {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 [[noreturn]] void exitAtOnce() {
   detail::removeTemporaryFiles();
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kInterruptedMessage.data(), kInterruptedMessage.size());
+  // Nobody else wipes a bar that stands there.
+  if (::isatty(STDERR_FILENO) == 1) show("\r\033[K");
+  show(kInterruptedMessage);
   ::_exit(kInterruptedExitCode);
 }
 

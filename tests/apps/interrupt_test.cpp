@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "apps/grid_files.h"
 #include "apps/program.h"
 #include "folders.h"
 
@@ -40,6 +41,23 @@ TEST(Interrupt, EndsAtOnceWhileWriting) {
   EXPECT_EQ(outcome.exitCode, 130);
   EXPECT_LT(outcome.secondsAfterSignal, 1.0);
   EXPECT_EQ(folder.entries().size(), 1U);
+}
+
+// Their tools look at what stops them now and then only.
+TEST(Interrupt, EndsStepsOnGridsAtOnce) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "ball.vdb";
+  writeSphere(in);
+  for (const std::string command : {"mesh", "grid"}) {
+    const std::string out = folder / (command == "mesh" ? "out.ply" : "out.vdb");
+    const Outcome outcome =
+        runPdc({command, in, out, "--resample", "0.002", "--smooth", "curvature:0.03", "--keep", "largest", "--quiet"},
+               {.interruptAfter = 0.7});
+    EXPECT_EQ(outcome.exitCode, 130);
+    EXPECT_LT(outcome.secondsAfterSignal, 0.5);
+    EXPECT_EQ(outcome.err, "pdc: interrupted\n");
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{"ball.vdb"});
+  }
 }
 
 }  // namespace

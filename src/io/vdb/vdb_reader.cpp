@@ -175,14 +175,24 @@ const VdbEntry& findEntry(const VdbFile& file, const std::string& name) {
 }  // namespace
 
 std::vector<VdbGridInfo> listVdbGrids(const std::filesystem::path& path) {
-  return withFileName(path, [&] {
+  std::vector<VdbGridInfo> grids;
+  visitVdbGrids(path, [&](const VdbGridInfo& info, const openvdb::GridBase::Ptr&) { grids.push_back(info); });
+  return grids;
+}
+
+void visitVdbGrids(const std::filesystem::path& path,
+                   const std::function<void(const VdbGridInfo&, const openvdb::GridBase::Ptr&)>& visit) {
+  withFileName(path, [&] {
     VdbFile file(path);
-    std::vector<VdbGridInfo> grids;
     for (const VdbEntry& entry : file.entries()) {
-      grids.push_back(describe(file, entry, file.readHead(entry)));
-      if (grids.back().contourable) describeVoxels(*detail::readGrid(path, file, entry), grids.back());
+      VdbGridInfo info = describe(file, entry, file.readHead(entry));
+      openvdb::GridBase::Ptr grid;
+      if (info.contourable) {
+        grid = detail::readGrid(path, file, entry);
+        describeVoxels(*grid, info);
+      }
+      visit(info, grid);
     }
-    return grids;
   });
 }
 

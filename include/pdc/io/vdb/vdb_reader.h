@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct VdbGridInfo {
 /// All grids of a file, in file order. Values are read, so the cost is that of reading the file.
 /// \throws Error for a missing, empty, damaged or non-VDB file.
 [[nodiscard]] std::vector<VdbGridInfo> listVdbGrids(const std::filesystem::path& path);
+
+/// Calls visit(info, grid) for all of these, each with the grid itself, which is null if it is not contourable and
+/// given up when visit returns, unless that keeps it. \throws Error likewise, and what visit throws as an Error of the
+/// file.
+void visitVdbGrids(const std::filesystem::path& path,
+                   const std::function<void(const VdbGridInfo& info, const openvdb::GridBase::Ptr& grid)>& visit);
 
 /// One grid, wholly in memory (no delayed loading). An empty name takes the only contourable grid; if there is none or
 /// more than one the error lists what there is. \throws Error for the files that listVdbGrids() refuses, for an unknown
