@@ -93,6 +93,7 @@ class Chain {
     if (kind == 1) tree.setValue(at, std::numeric_limits<Value>::infinity());
     if (kind == 2) tree.addTile(1, at, static_cast<Value>(uniform(-3, 3)), one(2));
     if (kind == 3) tree.addTile(2, Coord(128 * dice(3), 0, 0), static_cast<Value>(uniform(-1, 1)), one(2));
+    mLarge = mLarge || kind == 3;
     if (kind == 4) scale(grid, pick({-1.0, 0.0, 1e-30, 1e30, 0.01}));
     if (kind == 5)
       for (auto it = grid.beginValueOff(); it; ++it) it.setValue(grid.background());
@@ -123,9 +124,17 @@ class Chain {
 
   openvdb::GridBase::Ptr anyGrid() { return one(4) ? makeGrid<openvdb::DoubleGrid>() : makeGrid<openvdb::FloatGrid>(); }
 
-  double length() { return mUnit * pick({0.5, 1.0, 2.0, 3.3, 12.0, 1e-6, 1e9}); }
+  double length() {
+    const double voxels = pick({0.5, 1.0, 2.0, 3.3, 12.0, 1e-6, 1e9});
+    // Large tiles that are resampled become voxels.
+    return mUnit * (mLarge && voxels > 0.1 ? std::max(voxels, 2.0) : voxels);
+  }
   /// Moves take long: they go half a voxel at a time.
-  double distance() { return mUnit * pick({0.3, 1.0, 2.0, 3.3, 1e-6, 1e9}); }
+  double distance() {
+    const double most = mLarge ? 0.5 : 3.3;
+    const double voxels = pick({0.3, 1.0, 2.0, 3.3, 1e-6, 1e9});
+    return mUnit * (voxels < 10 ? std::min(voxels, most) : voxels);
+  }
 
   GridSteps makeSteps() {
     GridSteps steps;
@@ -176,6 +185,7 @@ class Chain {
 
   std::mt19937 mRandom;
   double mUnit = 1;
+  bool mLarge = false;  ///< Whether a grid has a tile of 128 voxels.
   ChainOutcome mOutcome;
 };
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/contour_memory.h"
 #include "parallel/machine_memory.h"
 #include "pdc/error.h"
 #include "pdc/extract/contour.h"
+#include "pdc/extract/contour_forecast.h"
 #include "pdc/sample/vdb/grid_source.h"
 
 namespace pdc::detail {
@@ -18,6 +20,29 @@ namespace {
 constexpr double kFarthest = 1 << 30;
 
 double volumeOf(const openvdb::Vec3d& v) { return std::abs(v.x() * v.y() * v.z()); }
+
+/// Refuses a contour, and a level set of it, that would take all memory, before either is made.
+void checkContour(const GridSource& source, const ContourOptions& options, const openvdb::math::Transform& transform,
+                  double halfWidth, const Monitor& monitor) {
+  const auto forecast = forecastContour(source, options, monitor);
+  if (!forecast) return;
+  checkMemory(forecast->memory, forecast->vertices, options);
+  const double scale = source.map().voxelSize() / transform.voxelSize()[0];
+  checkVoxels(forecast->vertices * scale * scale * 2 * halfWidth, kBandBytes);
+}
+
+/// A volume's contour, of which a level set is made.
+Mesh contourFor(const GridVolume& volume, const openvdb::math::Transform& transform, double halfWidth,
+                const Monitor& monitor) {
+  const GridSource source(volume.grid, {.iso = volume.iso, .gridClass = volume.gridClass, .inside = volume.inside});
+  // Faces that intersect by a little do no harm to distances, and proving that none do takes time.
+  const ContourOptions options{.placement = Placement::kFree, .origin = std::nullopt};
+  checkContour(source, options, transform, halfWidth, monitor);
+  Mesh mesh = contour(source, options, nullptr, monitor);
+  // What contouring leaves behind for the next one is as large as a grid.
+  releaseMemory();
+  return mesh;
+}
 
 }  // namespace
 
@@ -67,19 +92,16 @@ double halfWidthOf(const GridVolume& volume) {
 
 openvdb::GridBase::Ptr levelSetOf(const GridVolume& volume, const openvdb::math::Transform& transform, double halfWidth,
                                   bool doubles, const Monitor& monitor) {
-  Mesh mesh;
-  {
-    const GridSource source(volume.grid, {.iso = volume.iso, .gridClass = volume.gridClass, .inside = volume.inside});
-    // Faces that intersect by a little do no harm to distances, and proving that none do takes time.
-    mesh = contour(source, {.placement = Placement::kFree, .origin = std::nullopt}, nullptr, monitor);
-  }
-  return levelSetFromMesh(mesh, transform, halfWidth, doubles, monitor);
+  return levelSetFromMesh(contourFor(volume, transform, halfWidth, monitor), transform, halfWidth, doubles, monitor);
 }
 
 void rebuildLevelSet(GridVolume& volume, const openvdb::math::Transform& transform, double halfWidth,
                      const Monitor& monitor) {
   const bool doubles = volume.grid->isType<openvdb::DoubleGrid>();
-  const openvdb::GridBase::Ptr grid = levelSetOf(volume, transform, halfWidth, doubles, monitor);
+  const Mesh mesh = contourFor(volume, transform, halfWidth, monitor);
+  // The old grid and the new one would be in memory at a time.
+  visitReal(volume, "rebuildLevelSet", [](auto& grid) { grid.clear(); });
+  const openvdb::GridBase::Ptr grid = levelSetFromMesh(mesh, transform, halfWidth, doubles, monitor);
   volume.gridClass = GridClass::kLevelSet;
   replaceGrid(volume, grid);
   volume.inside = InsideValues::kLow;

@@ -2,6 +2,8 @@
 
 #include <openvdb/Grid.h>
 
+#include <cstdint>
+
 #include "grid/real_grid.h"
 #include "pdc/grid/grid_volume.h"
 #include "pdc/mesh/mesh.h"
@@ -12,6 +14,10 @@ namespace pdc::detail {
 
 /// Half the width of a band, in voxels, as most tools make it and all of them suffice with.
 inline constexpr double kHalfWidth = 3;
+
+/// What each voxel of a level set takes while it is made of a mesh: leaves of a band are half full, and each voxel has
+/// a value and, for a time, the number of a face.
+inline constexpr double kBandBytes = 2 * (sizeof(float) + sizeof(std::int32_t) + 4);
 
 /// A lattice of cubes: as `old` has it where that has cubes, with the point 0, 0, 0 and the axes that they have, else
 /// along the axes of the world.

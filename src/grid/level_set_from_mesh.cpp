@@ -66,9 +66,7 @@ void checkSize(const MeshData& data, double halfWidth) {
         throw Error(
             fmt::format("a vertex lies {:.3g} voxels from the origin; at most {:.3g}", std::abs(p[axis]), kFarthest));
   }
-  // Leaves of a band are half full; each voxel has a value and, for a time, the number of a face.
-  constexpr double kBytes = 2 * (sizeof(float) + sizeof(std::int32_t) + 4);
-  checkVoxels(voxelsAbout(data, halfWidth), kBytes);
+  checkVoxels(voxelsAbout(data, halfWidth), kBandBytes);
 }
 
 template <typename GridT>

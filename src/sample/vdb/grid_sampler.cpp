@@ -35,7 +35,7 @@ class TypedGridSampler final : public GridSampler {
     return search.find(monitor);
   }
 
-  /// From evenly spaced leaves; surface between tiles is left out.
+  /// From evenly spaced leaves and large tiles; surface between tiles of leaves is left out.
   [[nodiscard]] SurfaceForecast forecast(const Monitor& monitor) const override {
     constexpr std::size_t kMostLeaves = 2048;
     const std::size_t count = std::min(kMostLeaves, mTable.size());
@@ -49,7 +49,10 @@ class TypedGridSampler final : public GridSampler {
       forecast.blocks += crossings > 0 ? 1 : 0;
     }
     const double weight = count > 0 ? static_cast<double>(mTable.size()) / static_cast<double>(count) : 0;
-    return {.blocks = weight * forecast.blocks, .crossings = weight * forecast.crossings};
+    const double aboutTiles = TileFaces<TreeT>(mGrid->tree(), mReader).forecast();
+    constexpr double kOfBlock = kBlockSize * kBlockSize;
+    return {.blocks = weight * forecast.blocks + aboutTiles / kOfBlock,
+            .crossings = weight * forecast.crossings + aboutTiles};
   }
 
   [[nodiscard]] CellMask positivePoints(const Coord& block) const override {

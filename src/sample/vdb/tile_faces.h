@@ -43,6 +43,26 @@ class TileFaces {
     for (const std::vector<Coord>& part : found) blocks.insert(blocks.end(), part.begin(), part.end());
   }
 
+  /// How many crossings such surface has about tiles that are larger than leaves, roughly: each face is judged by what
+  /// lies beyond its middle. \throws Error if a tile lies too far out.
+  [[nodiscard]] double forecast() const {
+    Accessor accessor(mTree);
+    double crossings = 0;
+    forEachLargeTile([&](const openvdb::CoordBBox& box) {
+      checkIndex(box.min());
+      checkIndex(box.max());
+      const int dim = box.dim().x();
+      for (int axis = 0; axis < 3; ++axis)
+        for (const bool upper : {false, true}) {
+          openvdb::Coord p = box.min().offsetBy(dim / 2);
+          p[axis] = upper ? box.max()[axis] + 1 : box.min()[axis] - 1;
+          if (mReader.inside(accessor.getValue(p)) == mBackground)
+            crossings += static_cast<double>(dim) * static_cast<double>(dim);
+        }
+    });
+    return crossings;
+  }
+
  private:
   using Grandparent = typename TreeT::RootNodeType::ChildNodeType;
   using Parent = typename Grandparent::ChildNodeType;
@@ -72,9 +92,15 @@ class TileFaces {
   /// Looks around the tiles of the root and of its children.
   void findAroundLargeTiles(const Monitor& monitor, std::vector<Coord>& blocks) const {
     Accessor accessor(mTree);
+    forEachLargeTile([&](const openvdb::CoordBBox& box) { findAround(box, monitor, accessor, blocks); });
+  }
+
+  /// Calls visit(box) for the tiles of the root and of its children that are on the other side.
+  template <typename Visit>
+  void forEachLargeTile(const Visit& visit) const {
     for (auto tile = mTree.root().cbeginValueAll(); tile; ++tile)
       if (mReader.inside(*tile) != mBackground)
-        findAround(openvdb::CoordBBox::createCube(tile.getCoord(), Grandparent::DIM), monitor, accessor, blocks);
+        visit(openvdb::CoordBBox::createCube(tile.getCoord(), Grandparent::DIM));
     // Iterators take several times as long as tables, and most trees have tens of thousands of entries here.
     std::vector<const Grandparent*> nodes;
     mTree.getNodes(nodes);
@@ -82,8 +108,7 @@ class TileFaces {
       const auto* table = node->getTable();
       for (openvdb::Index i = 0; i < Grandparent::NUM_VALUES; ++i) {
         if (node->isChildMaskOn(i) || mReader.inside(table[i].getValue()) == mBackground) continue;
-        findAround(openvdb::CoordBBox::createCube(node->offsetToGlobalCoord(i), Parent::DIM), monitor, accessor,
-                   blocks);
+        visit(openvdb::CoordBBox::createCube(node->offsetToGlobalCoord(i), Parent::DIM));
       }
     }
   }
