@@ -1,4 +1,3 @@
-#include "folders.h"
 #include "pdc/sample/mesh/mesh_source.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "folders.h"
 #include "mesh/winding/cubes.h"
 #include "pdc/error.h"
 #include "pdc/extract/contour.h"
