@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 
 #include "files/json_file.h"
 #include "files/mesh_file.h"
 #include "parallel/with_threads.h"
-#include "pdc/mesh/mesh_report.h"
-#include "pdc/mesh/self_intersections.h"
-#include "reports/info_facts.h"
+#include "reports/check_facts.h"
 #include "terminal/busy_sign.h"
 #include "terminal/facts_text.h"
 #include "terminal/interrupt.h"
@@ -22,44 +19,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto kBoundary = "boundary_edges", kNoFaces = "no_faces";
-/// Facts that are 0 or false for a clean mesh.
-constexpr std::array kFaults = {
-    kNoFaces,          kBoundary,          "non_manifold_edges",  "non_manifold_vertices", "misoriented_edges",
-    "duplicate_faces", "degenerate_faces", "zero_area_triangles", "non_finite_vertices",   "self_intersections",
-    "inside_out"};
-
 Json factsOf(const CheckRequest& request) {
-  MeshFile file;
-  MeshReport report;
-  {
+  const MeshFile file = [&] {
     const ExitOnInterrupt scope;
     const BusySign sign(!request.quiet, "reading " + request.file.filename().string());
-    file = readMeshFile(request.file, request.quiet);
-    report = analyze(file.mesh);
-  }
+    return readMeshFile(request.file, request.quiet);
+  }();
   ProgressBar bar(!request.quiet);
   const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-  const SelfIntersections found = selfIntersections(file.mesh, {}, {.progress = show, .stop = &interruptFlag()});
-
   Json facts{{"file", request.file.string()}};
-  facts.update(meshFacts(file, report));
-  facts[kNoFaces] = file.mesh.empty();
-  facts["inside_out"] = report.boundaryEdges == 0 && report.volume < 0;
-  facts["zero_area_triangles"] = found.degenerateTriangles;
-  facts["self_intersections"] = found.pairs.size();
-  facts["all_self_intersections_counted"] = found.complete;
+  facts.update(checkFacts(file, {.progress = show, .stop = &interruptFlag()}));
   return facts;
-}
-
-Json faultsIn(const Json& facts, const CheckRequest& request) {
-  Json faults = Json::array();
-  for (const char* name : kFaults) {
-    if ((name == kBoundary && request.allowBoundary) || (name == kNoFaces && request.allowEmpty)) continue;
-    const Json& fact = facts[name];
-    if (fact.is_boolean() ? fact.get<bool>() : fact.get<std::size_t>() > 0) faults.push_back(name);
-  }
-  return faults;
 }
 
 std::string verdict(const Json& facts) {
@@ -96,7 +66,7 @@ void addCheckOptions(CLI::App& command, CheckRequest& request) {
 bool runCheck(const CheckRequest& request) {
   checkJsonPath(request.json);
   Json facts = detail::withThreads(request.threads.value_or(0), [&] { return factsOf(request); });
-  facts["faults"] = faultsIn(facts, request);
+  facts["faults"] = faultsIn(facts, {.boundary = request.allowBoundary, .empty = request.allowEmpty});
   facts["clean"] = facts["faults"].empty();
 
   writeJson(facts, request.json);

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <future>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,12 +13,12 @@
 #include "files/mesh_attributes.h"
 #include "files/mesh_file.h"
 #include "io/file/suffix.h"
-#include "mesh/components.h"
 #include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/extract/contour_forecast.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "reports/json_report.h"
+#include "reports/mesh_checks.h"
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
@@ -43,22 +39,6 @@ void checkSurface(const MeshRequest& request, const Input& input, const Mesh& me
   warn(run, message);
 }
 
-/// Far from the origin the output's single precision is coarser than the vertices were placed.
-void checkPrecision(const Input& input, const Mesh& mesh, MeshRun& run) {
-  float farthest = 0;
-  for (const Vec3f& p : mesh.positions) {
-    farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  if (!std::isfinite(farthest)) throw Error("coordinates lie beyond what single precision holds, 3.4e38");
-  const double spacing = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
-  const double inVoxels = spacing / input.source->map().voxelSize();
-  if (inVoxels > kMostRounding) {
-    warn(run, fmt::format("far from the origin: at coordinate {:.6g} single precision has steps of {:.2g} voxels; "
-                          "--origin auto or --double keeps what is lost",
-                          farthest, inVoxels));
-  }
-}
-
 /// Bytes of a mesh's file, roughly.
 double fileSize(const MeshRequest& request, const ContourForecast& forecast) {
   const bool text = request.ascii || detail::suffixOf(request.output) == ".obj";
@@ -77,33 +57,6 @@ void checkForecast(const MeshRequest& request, const Input& input, const MeshRun
                          detail::bytesText(forecast->memory), detail::bytesText(fileSize(request, *forecast)))
                  .c_str(),
              stderr);
-}
-
-/// The vertices of the walls that close a scene's solid where its box cuts it off.
-std::size_t countOnBox(const Input& input, const Mesh& mesh) {
-  constexpr double kNear = 0.02;  // voxels
-  if (!input.cut) return 0;
-  const double near = kNear * input.source->map().voxelSize();
-  return static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3f& p) {
-    const Vec3d world = mesh.origin + vecCast<double>(p);
-    bool on = false;
-    for (int axis = 0; axis < 3; ++axis)
-      on = on || world[axis] < input.cut->lo[axis] + near || world[axis] > input.cut->hi[axis] - near;
-    return on;
-  }));
-}
-
-/// Noise about the isovalue makes thousands of closed surfaces about a lattice point or few.
-void checkSpecks(const Mesh& mesh, MeshRun& run) {
-  constexpr std::size_t kMany = 1000, kMostVertices = 24;
-  const std::vector<std::uint32_t> sizes = detail::componentSizes(mesh);
-  const auto specks = static_cast<std::size_t>(
-      std::count_if(sizes.begin(), sizes.end(), [](std::size_t size) { return size <= kMostVertices; }));
-  if (specks >= kMany)
-    warn(run,
-         fmt::format("{} of {} separate surfaces are specks of at most {} vertices; an --iso farther from the noise "
-                     "or a smoothed input has fewer",
-                     specks, sizes.size(), kMostVertices));
 }
 
 /// An input, and how long it took to read.
@@ -162,9 +115,8 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   addAttributes(input, mesh);
   run.secondsContour = stopwatch.lap();
   checkSurface(request, input, mesh, run);
-  checkPrecision(input, mesh, run);
-  checkSpecks(mesh, run);
-  run.verticesOnBox = countOnBox(input, mesh);
+  for (const std::string& warning : meshWarnings(input, mesh, {})) warn(run, warning);
+  run.verticesOnBox = verticesOnBox(input, mesh);
   return mesh;
 }
 
