@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace pdc::detail {
 namespace {
 
@@ -20,7 +22,7 @@ class Lines {
         return fmt::format(
             "all outermost values are inside but what is around them is not, so there is a false sheet where the "
             "values end; {} if values are positive inside{}",
-            option("inside", "high"), inProgram("; --flood-fill closes a solid, --open ends a scan's surface there"));
+            option("inside", "high"), closing());
       case GridDoubt::kSideUnclear:
         return fmt::format(
             "neither the background nor the outermost values say which side is outside; {} values are taken as "
@@ -49,10 +51,9 @@ class Lines {
                            option("class", "level-set"));
       case GridDoubt::kNotFloodFilled:
         return fmt::format("the values end inside beside inactive ones that are outside, so there is a false sheet{}",
-                           inProgram("; --flood-fill closes a solid, --open ends a scan's surface there"));
+                           closing());
       case GridDoubt::kCutAtEnd:
-        return fmt::format("the solid reaches where the values end and is closed there{}",
-                           inProgram("; --open leaves it open"));
+        return fmt::format("the solid reaches where the values end and is closed there{}", opening());
       case GridDoubt::kIsoNearBandEnd:
         return fmt::format(
             "iso {:.6g} is less than a voxel from where the values end, so the surface may be half a voxel off; take "
@@ -68,11 +69,29 @@ class Lines {
   }
 
  private:
-  [[nodiscard]] std::string option(const char* name, const char* value) const {
-    return mStyle == OptionStyle::kProgram ? fmt::format("--{} {}", name, value) : fmt::format("{}: {}", name, value);
+  [[nodiscard]] std::string option(std::string_view name, std::string_view value) const {
+    switch (mStyle) {
+      case OptionStyle::kProgram:
+        return fmt::format("--{} {}", name, value);
+      case OptionStyle::kScene:
+        return fmt::format("{}: {}", name, value);
+      case OptionStyle::kPython:
+        break;
+    }
+    if (name == "iso") return fmt::format("level={}", value);
+    return fmt::format("{}='{}'", name == "class" ? "grid_class" : name, value);
   }
-  /// What goes with grids that are contoured by themselves only.
-  [[nodiscard]] const char* inProgram(const char* text) const { return mStyle == OptionStyle::kProgram ? text : ""; }
+  // What closes and opens surfaces goes with grids that are contoured by themselves only.
+  [[nodiscard]] const char* closing() const {
+    if (mStyle == OptionStyle::kScene) return "";
+    return mStyle == OptionStyle::kProgram
+               ? "; --flood-fill closes a solid, --open ends a scan's surface there"
+               : "; flood_fill=True closes a grid's solid, open=True ends a scan's surface there";
+  }
+  [[nodiscard]] const char* opening() const {
+    if (mStyle == OptionStyle::kScene) return "";
+    return mStyle == OptionStyle::kProgram ? "; --open leaves it open" : "; open=True leaves it open";
+  }
 
   const GridMeaning& mMeaning;
   OptionStyle mStyle;
