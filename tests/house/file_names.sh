@@ -4,10 +4,10 @@ set -euo pipefail
 cd "$1"
 
 complaints=$(
-  find include src apps tests \( -name '*.h' -o -name '*.cpp' \) |
+  find include src apps python tests \( -name '*.h' -o -name '*.cpp' \) |
     grep -vE '/[a-z0-9]+(_[a-z0-9]+)*\.(h|cpp)$' | sed 's/$/: not lower_snake/'
-  grep -rLx --include='*.h' '#pragma once' include src apps tests | sed 's/$/: no #pragma once/'
-  for folder in src apps tests; do
+  grep -rLx --include='*.h' '#pragma once' include src apps python tests | sed 's/$/: no #pragma once/'
+  for folder in src apps python tests; do
     built=$(find "$folder" -name CMakeLists.txt -exec cat {} +)
     while IFS= read -r source; do
       [[ "$built" == *[/\ ]"${source##*/}"* ]] || echo "$source: in no CMakeLists.txt, so never built"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Nothing includes a higher floor, nor, within a floor, a higher room, and no rooms include each other in a circle: looks
-# at every #include line of include/pdc, src and apps, and prints which rooms know which. Usage: floors.sh ROOT
+# at every #include line of include/pdc, src, apps and python, and prints which rooms know which. Usage: floors.sh ROOT
 set -euo pipefail
 cd "$1"
 
@@ -10,7 +10,7 @@ declare -A floor_of=(
   [parallel]=0 [math]=1 [mesh]=2 [rays]=3 [simplify]=3 [smooth]=3 [subdivide]=3 [field]=4 [sample]=5 [extract]=6 [render]=6
   [grid]=7 [points]=7 [io]=8 [study]=9 [tile]=9
 )
-readonly ground=-1 apps=10
+readonly ground=-1 apps=10 python=11
 # By folder within a floor. Rooms of one rank do not know each other.
 declare -A room_of=(
   [mesh]=0 [mesh/welding]=1 [mesh/polygons]=1 [mesh/intersections]=1 [mesh/local]=1 [mesh/reports]=2 [mesh/winding]=2
@@ -37,6 +37,9 @@ find_place() {
   elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == reports || "$top" == commands ]]; then
     floor=$apps
     [[ "$top" == apps ]] || room=apps/$folder
+  elif [[ "$top" == python ]]; then
+    floor=$python
+    room=python
   elif [[ -n "${floor_of[$top]-}" ]]; then
     floor=${floor_of[$top]}
   else
@@ -71,7 +74,7 @@ while IFS=: read -r file line; do
     echo "$file includes a room that is not below its own: $included"
     failures=$((failures + 1))
   fi
-done < <(grep -rE --include='*.h' --include='*.cpp' '^ *# *include "' include/pdc src apps)
+done < <(grep -rE --include='*.h' --include='*.cpp' '^ *# *include "' include/pdc src apps python)
 
 # A room stands one level above the highest that it knows. In a circle there is no such level.
 declare -A level=() knows=()

@@ -13,7 +13,7 @@ declare -A exceptions=()
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT
 
-sources() { find include src apps tests bench \( -name '*.h' -o -name '*.cpp' \) | sort; }
+sources() { find include src apps python tests bench \( -name '*.h' -o -name '*.cpp' \) | sort; }
 
 # Each line: how large, the limit, what.
 measure() {

@@ -1,0 +1,28 @@
+#include <openvdb/openvdb.h>
+#include <pybind11/pybind11.h>
+
+#include "groups.h"
+#include "pdc/error.h"
+
+PYBIND11_MODULE(_core, module) {
+  namespace py = pybind11;
+  module.doc() = "What the package pdc is made of; not for direct use.";
+  module.attr("version") = PDC_VERSION;
+  openvdb::initialize();
+  py::register_exception<pdc::Error>(module, "Error", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const pdc::Cancelled&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+  pdc::python::addMesh(module);
+  pdc::python::addFields(module);
+  pdc::python::addGrids(module);
+  pdc::python::addContour(module);
+  pdc::python::addVerbs(module);
+  pdc::python::addFacts(module);
+  pdc::python::addRender(module);
+  pdc::python::addSweep(module);
+}
