@@ -80,7 +80,7 @@ def check(
     """
     _need_mesh(mesh)
     boundary, empty = flag("allow_boundary", allow_boundary), flag("allow_empty", allow_empty)
-    return Check(_core.check(mesh._core, boundary, empty, thread_count(threads), callback(progress)))
+    return Check(_core.check(mesh._handle, boundary, empty, thread_count(threads), callback(progress)))
 
 
 def info(path: Path) -> Dict[str, Any]:

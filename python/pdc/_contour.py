@@ -26,7 +26,7 @@ from ._arguments import (
     word,
 )
 from ._field import Field, function
-from ._grid import Grid, is_openvdb
+from ._grid import Grid, borrowed, is_openvdb
 from ._mesh import Mesh, Path
 from ._scene import Scene
 
@@ -276,10 +276,10 @@ def _grid_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[S
     cores = []
     for name, grid in (("volume", volume), ("sigma", given["sigma"]), ("weight", given["weight"])):
         if is_openvdb(grid):
-            grid = Grid.from_openvdb(grid)
+            grid = borrowed(grid)
         if grid is not None and not isinstance(grid, Grid):
             raise TypeError(f"{name} must be a pdc.Grid as the volume is, not {type(grid).__name__}")
-        cores.append(None if grid is None else grid._core)
+        cores.append(None if grid is None else grid._handle)
     return ("grid", *cores), options
 
 
@@ -318,7 +318,7 @@ def _field_source(
         chosen["voxel_size"] = max(h - l for l, h in zip(lo, hi)) / chosen.pop("resolution")
     if "voxel_size" not in chosen:
         raise ValueError("voxel_size or resolution must be given for a field")
-    return ("field", field._core, (*lo, *hi), None if scene is None else scene.sigma_normal), chosen
+    return ("field", field._handle, (*lo, *hi), None if scene is None else scene.sigma_normal), chosen
 
 
 def _corners(box: Any) -> Tuple[Any, Any]:

@@ -27,8 +27,8 @@ class Field:
     array([False,  True])
     """
 
-    __slots__ = ("_core",)
-    _core: _core.Field
+    __slots__ = ("_handle",)
+    _handle: _core.Field
 
     def __init__(self) -> None:
         raise TypeError("fields are made by functions such as pdc.sphere() and pdc.function()")
@@ -36,16 +36,16 @@ class Field:
     @classmethod
     def _of(cls, core: _core.Field) -> Field:
         field = cls.__new__(cls)
-        field._core = core
+        field._handle = core
         return field
 
     def __call__(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The values at points of shape (n, 3)."""
-        return self._core.values(_points(points))
+        return self._handle.values(_points(points))
 
     def gradient(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The gradients at points of shape (n, 3), of that shape, in value per world unit."""
-        return self._core.gradients(_points(points))
+        return self._handle.gradients(_points(points))
 
     def __or__(self, other: Field) -> Field:
         return union(self, other) if isinstance(other, Field) else NotImplemented
@@ -57,42 +57,42 @@ class Field:
         return difference(self, other) if isinstance(other, Field) else NotImplemented
 
     def __invert__(self) -> Field:
-        return Field._of(_core.complement(self._core))
+        return Field._of(_core.complement(self._handle))
 
     def offset(self, distance: float) -> Field:
         """Grown by a distance, or shrunk by a negative one."""
-        return Field._of(_core.offset(self._core, number("distance", distance)))
+        return Field._of(_core.offset(self._handle, number("distance", distance)))
 
     def shell(self, thickness: float) -> Field:
         """The skin about the surface, of that thickness."""
-        return Field._of(_core.shell(self._core, number("thickness", thickness, above=0)))
+        return Field._of(_core.shell(self._handle, number("thickness", thickness, above=0)))
 
     def translate(self, by: Any) -> Field:
         """Moved by a vector."""
-        return Field._of(_core.translate(self._core, triple("by", by)))
+        return Field._of(_core.translate(self._handle, triple("by", by)))
 
     def rotate(self, degrees: float, axis: Any = (0, 0, 1)) -> Field:
         """Turned about an axis through the origin, right-handed."""
-        return Field._of(_core.rotate(self._core, triple("axis", axis), number("degrees", degrees)))
+        return Field._of(_core.rotate(self._handle, triple("axis", axis), number("degrees", degrees)))
 
     def scale(self, factor: Any) -> Field:
         """Scaled about the origin by a number, or by three along the axes, all above 0."""
         if np.ndim(factor) == 0:
-            return Field._of(_core.scale(self._core, number("factor", factor, above=0)))
-        return Field._of(_core.scale_axes(self._core, triple("factor", factor, above=0)))
+            return Field._of(_core.scale(self._handle, number("factor", factor, above=0)))
+        return Field._of(_core.scale_axes(self._handle, triple("factor", factor, above=0)))
 
     def mirror(self, axis: str) -> Field:
         """The half above 0 along an axis, "x", "y" or "z", on both sides."""
         if axis not in _AXES:
             raise ValueError(f"axis must be 'x', 'y' or 'z', not {axis!r}")
-        return Field._of(_core.mirror(self._core, _AXES[axis]))
+        return Field._of(_core.mirror(self._handle, _AXES[axis]))
 
     def repeat(self, period: Any, count: Any = (0, 0, 0)) -> Field:
         """Copies at multiples of `period`, where that is not 0; `count` in each direction, 0 being any number."""
         counts = [integer(f"count[{i}]", n, 0, 2**31 - 1) for i, n in enumerate(count)]
         if len(counts) != 3:
             raise ValueError(f"count must be three numbers, not {len(counts)}")
-        return Field._of(_core.repeat(self._core, triple("period", period), (counts[0], counts[1], counts[2])))
+        return Field._of(_core.repeat(self._handle, triple("period", period), (counts[0], counts[1], counts[2])))
 
 
 def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -106,7 +106,7 @@ def _operands(fields: Any) -> List[_core.Field]:
     for field in fields:
         if not isinstance(field, Field):
             raise TypeError(f"fields must be pdc.Field, not {type(field).__name__}")
-    return [field._core for field in fields]
+    return [field._handle for field in fields]
 
 
 def union(*fields: Field, smooth: Optional[float] = None) -> Field:

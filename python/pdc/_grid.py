@@ -28,8 +28,8 @@ class Grid:
     (64, 'float', ((2, 2, 2), (5, 5, 5)))
     """
 
-    __slots__ = ("_core",)
-    _core: _core.Grid
+    __slots__ = ("_handle",)
+    _handle: _core.Grid
 
     def __init__(self) -> None:
         raise TypeError("grids are made by pdc.read_grid(), pdc.Grid.from_array() and pdc.Grid.from_openvdb()")
@@ -37,7 +37,7 @@ class Grid:
     @classmethod
     def _of(cls, core: _core.Grid) -> Grid:
         grid = cls.__new__(cls)
-        grid._core = core
+        grid._handle = core
         return grid
 
     @classmethod
@@ -108,7 +108,7 @@ class Grid:
         if not hasattr(module, name):
             raise TypeError(f"{module.__name__} has no grids of type {self.value_type}")
         grid = getattr(module, name)()
-        state: Tuple[Dict[str, Any], bytes] = ({}, self._core.to_bytes())
+        state: Tuple[Dict[str, Any], bytes] = ({}, self._handle.to_bytes())
         grid.__setstate__(state)
         return grid
 
@@ -127,50 +127,60 @@ class Grid:
         lo, hi = (tuple(int(i) for i in corner) for corner in chosen)
         if len(lo) != 3 or len(hi) != 3 or any(h < l for l, h in zip(lo, hi)):
             raise ValueError(f"box must be two corners of three indices, the first nowhere larger, not {chosen}")
-        result: npt.NDArray[Any] = self._core.to_array(lo, hi)
+        result: npt.NDArray[Any] = self._handle.to_array(lo, hi)
         return result
 
     @property
     def name(self) -> str:
         """Its name in files; may be empty."""
-        return self._core.name
+        return self._handle.name
 
     @property
     def value_type(self) -> str:
         """ "float", "double", "int32", "int64", "bool", or another type of OpenVDB."""
-        return self._core.value_type
+        return self._handle.value_type
 
     @property
     def grid_class(self) -> str:
         """ "level set", "fog volume" or "unknown"."""
-        return self._core.grid_class
+        return self._handle.grid_class
 
     @property
     def active_voxels(self) -> int:
         """Their number."""
-        return self._core.active_voxels
+        return self._handle.active_voxels
 
     @property
     def active_box(self) -> Optional[Tuple[Index, Index]]:
         """The smallest and largest indices of active voxels, or None."""
-        return self._core.active_box
+        return self._handle.active_box
 
     @property
     def background(self) -> float:
         """The value where nothing is stored."""
-        return self._core.background
+        return self._handle.background
 
     @property
     def affine(self) -> npt.NDArray[np.float64]:
         """The matrix, shape (4, 4), from indices to the world. Raises pdc.Error for a frustum."""
-        return self._core.affine
+        return self._handle.affine
 
     def save(self, path: Path) -> None:
         """Write the grid to a .vdb file, which appears when it is complete. Raises pdc.Error."""
-        self._core.save(path_text("path", path))
+        self._handle.save(path_text("path", path))
 
     def __repr__(self) -> str:
         return f"<pdc.Grid: {self.name!r}, {self.value_type}, {self.grid_class}, {self.active_voxels} active voxels>"
+
+
+def borrowed(grid: Any) -> Grid:
+    """A grid of OpenVDB's own module as it lies in memory where that can be, else a copy."""
+    try:
+        from . import _openvdb
+    except ImportError:
+        return Grid.from_openvdb(grid)
+    lent = _openvdb.share(grid)
+    return Grid.from_openvdb(grid) if lent is None else Grid._of(_core.grid_from_capsule(lent))
 
 
 def is_openvdb(grid: Any) -> bool:

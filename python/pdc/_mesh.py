@@ -78,8 +78,8 @@ class Mesh:
     (dtype('uint32'), False)
     """
 
-    __slots__ = ("_core", "_report", "_faces", "_properties", "__weakref__")
-    _core: _core.Mesh
+    __slots__ = ("_handle", "_report", "_faces", "_properties", "__weakref__")
+    _handle: _core.Mesh
     _report: Dict[str, Any]
 
     def __init__(
@@ -103,7 +103,7 @@ class Mesh:
         self._set(core, {})
 
     def _set(self, core: _core.Mesh, report: Dict[str, Any]) -> None:
-        self._core = core
+        self._handle = core
         self._report = report
         self._faces: Optional[npt.NDArray[np.uint32]] = None
         self._properties: Optional[Dict[str, npt.NDArray[Any]]] = None
@@ -117,36 +117,36 @@ class Mesh:
     @property
     def vertices(self) -> npt.NDArray[np.float32]:
         """Coordinates, shape (n, 3), in world units less `origin`."""
-        return self._core.vertices
+        return self._handle.vertices
 
     @property
     def quads(self) -> npt.NDArray[np.uint32]:
         """Numbers of the vertices of each quad, shape (m, 4)."""
-        return self._core.quads
+        return self._handle.quads
 
     @property
     def triangles(self) -> npt.NDArray[np.uint32]:
         """Numbers of the vertices of each face that is a triangle, shape (k, 3). See `faces` for all as triangles."""
-        return self._core.triangles
+        return self._handle.triangles
 
     @property
     def faces(self) -> npt.NDArray[np.uint32]:
         """All faces as triangles, shape (2 m + k, 3): two of each quad, then the triangles."""
         if self._faces is None:
-            self._faces = self._core.faces
+            self._faces = self._handle.faces
         return self._faces
 
     @property
     def normals(self) -> Optional[npt.NDArray[np.float32]]:
         """A unit vector for each vertex, shape (n, 3), or None."""
-        normals = self._core.normals
+        normals = self._handle.normals
         return normals if len(normals) == len(self.vertices) else None
 
     @property
     def properties(self) -> Dict[str, npt.NDArray[Any]]:
         """What else is known of each vertex, by name."""
         if self._properties is None:
-            self._properties = self._core.properties
+            self._properties = self._handle.properties
         return dict(self._properties)
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
@@ -177,7 +177,7 @@ class Mesh:
     @property
     def origin(self) -> npt.NDArray[np.float64]:
         """What `vertices` are relative to; zero unless the mesh is far away."""
-        return self._core.origin
+        return self._handle.origin
 
     @property
     def report(self) -> Dict[str, Any]:
@@ -205,7 +205,7 @@ class Mesh:
         --------
         >>> pdc.contour(pdc.sphere(1), box=2.5, resolution=16).save("ball.ply")
         """
-        self._core.save(path_text("path", path), flag("ascii", ascii), flag("double", double))
+        self._handle.save(path_text("path", path), flag("ascii", ascii), flag("double", double))
 
     def to_trimesh(self) -> Any:
         """The mesh as a trimesh.Trimesh, properties as vertex attributes. Needs trimesh."""
@@ -340,7 +340,7 @@ def render(
     if not (isinstance(shading, str) and shading in ("clay", "normal")):
         values = _shading_values(mesh, shading)
         options["low"], options["high"] = _limits(values, range, isinstance(shading, str) and shading == "confidence")
-    return _core.render(mesh._core, options, values, callback(progress))
+    return _core.render(mesh._handle, options, values, callback(progress))
 
 
 def write_png(path: Path, picture: npt.ArrayLike) -> None:

@@ -313,5 +313,5 @@ def subdivide(
 def _changed(verb: Any, mesh: Mesh, progress: Progress, **options: Any) -> Mesh:
     _need_mesh(mesh)
     given: Dict[str, Any] = {name: value for name, value in options.items() if value is not None}
-    core, report = verb(mesh._core, given, callback(progress))
+    core, report = verb(mesh._handle, given, callback(progress))
     return Mesh._of(core, report)

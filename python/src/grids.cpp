@@ -11,6 +11,7 @@
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "convert.h"
@@ -138,6 +139,13 @@ GridHandle fromBytes(const py::bytes& bytes) {
   });
 }
 
+/// A grid that pdc._openvdb lends.
+GridHandle fromCapsule(const py::capsule& capsule) {
+  const auto* const grid = static_cast<const openvdb::GridBase::Ptr*>(capsule.get_pointer());
+  if (capsule.name() != std::string_view("openvdb::GridBase::Ptr")) throw py::type_error("the capsule holds no grid");
+  return GridHandle{*grid};
+}
+
 std::string toBytes(const GridHandle& self) {
   return makePolitely(py::none(), [&](const Monitor&) {
     std::ostringstream stream(std::ios::binary);
@@ -172,6 +180,7 @@ void addGrids(py::module_& module) {
       .def("save", &save);
   module.def("grid_from_array", &fromArray);
   module.def("grid_from_bytes", &fromBytes);
+  module.def("grid_from_capsule", &fromCapsule);
   module.def("read_grid", &read);
 }
 

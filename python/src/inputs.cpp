@@ -52,17 +52,17 @@ openvdb::GridBase::ConstPtr gridOrNull(const py::object& object) {
   return object.is_none() ? nullptr : object.cast<GridHandle>().grid;
 }
 
-OpenInput openGrid(const py::tuple& source, const MeshRequest& request) {
+OpenInput openGrid(const py::tuple& parts, const MeshRequest& request) {
   const GridSourceOptions options{.iso = request.iso,
                                   .open = request.open,
                                   .acceptNonFinite = request.acceptNonFinite.value_or(false),
                                   .hermite = request.hermite.value_or(HermiteMode::kAuto),
-                                  .sigma = gridOrNull(source[2]),
-                                  .weight = gridOrNull(source[3]),
+                                  .sigma = gridOrNull(parts[2]),
+                                  .weight = gridOrNull(parts[3]),
                                   .gridClass = request.gridClass,
                                   .inside = request.inside,
                                   .floodFill = request.floodFill};
-  return [grid = gridOrNull(source[1]), options](const Monitor&) {
+  return [grid = gridOrNull(parts[1]), options](const Monitor&) {
     auto source = std::make_unique<const GridSource>(grid, options);
     const std::size_t withoutData = source->crossingsWithoutData();
     Input input = inputOf(std::move(source), "grid");
@@ -71,15 +71,15 @@ OpenInput openGrid(const py::tuple& source, const MeshRequest& request) {
   };
 }
 
-OpenInput openField(const py::tuple& source, const MeshRequest& request) {
-  const auto box = source[2].cast<std::array<double, 6>>();
+OpenInput openField(const py::tuple& parts, const MeshRequest& request) {
+  const auto box = parts[2].cast<std::array<double, 6>>();
   const FieldSourceOptions options{.box = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}},
                                    .voxelSize = request.voxelSize.value_or(0),
                                    .iso = request.iso.value_or(0),
                                    .open = request.open,
                                    .acceptNonFinite = request.acceptNonFinite.value_or(false)};
-  return [field = source[1].cast<FieldHandle>().field, options,
-          sigma = source[3].cast<std::optional<double>>()](const Monitor&) {
+  return [field = parts[1].cast<FieldHandle>().field, options,
+          sigma = parts[3].cast<std::optional<double>>()](const Monitor&) {
     auto source = std::make_unique<const FieldSource>(field, options);
     Input input;
     input.iso = options.iso;
@@ -95,17 +95,17 @@ OpenInput openField(const py::tuple& source, const MeshRequest& request) {
   };
 }
 
-OpenInput openArray(const py::tuple& source, const MeshRequest& request) {
+OpenInput openArray(const py::tuple& parts, const MeshRequest& request) {
   const DenseSourceOptions options{.iso = request.iso,
                                    .open = request.open,
                                    .acceptNonFinite = request.acceptNonFinite.value_or(false),
                                    .hermite = request.hermite.value_or(HermiteMode::kAuto),
                                    .gridClass = request.gridClass,
                                    .inside = request.inside,
-                                   .sigma = companion(source[3]),
-                                   .weight = companion(source[4]),
-                                   .mask = companion(source[5])};
-  return [view = viewOf(source[1].cast<py::array>()), map = mapOf(source[2].cast<py::array_t<double>>()), options](
+                                   .sigma = companion(parts[3]),
+                                   .weight = companion(parts[4]),
+                                   .mask = companion(parts[5])};
+  return [view = viewOf(parts[1].cast<py::array>()), map = mapOf(parts[2].cast<py::array_t<double>>()), options](
              const Monitor&) { return inputOf(std::make_unique<const DenseSource>(view, map, options), "array"); };
 }
 

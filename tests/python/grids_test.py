@@ -83,3 +83,20 @@ def test_mistakes_are_named(call, error, line):
     with pytest.raises(error) as raised:
         call()
     assert line in str(raised.value) and "\n" not in str(raised.value)
+
+
+def test_grids_of_openvdb_are_borrowed_where_they_can_be():
+    openvdb = pytest.importorskip("pyopenvdb")
+    pytest.importorskip("pdc._openvdb")
+    from pdc._grid import borrowed
+
+    theirs = openvdb.createLevelSetSphere(1.0, voxelSize=0.1)
+    ours = borrowed(theirs)
+    before = ours.active_voxels
+    theirs.fill((50, 50, 50), (52, 52, 52), 0.25)
+    assert ours.active_voxels == before + 27
+    copied = pdc.Grid.from_openvdb(theirs)
+    theirs.fill((60, 60, 60), (60, 60, 60), 0.25)
+    assert copied.active_voxels == before + 27 and ours.active_voxels == before + 28
+    del theirs
+    assert pdc.check(pdc.contour(ours)).clean

@@ -1,0 +1,3 @@
+"""Built only where pyopenvdb's Boost.Python is."""
+
+def share(grid: object, /) -> object: ...
