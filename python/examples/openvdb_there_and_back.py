@@ -23,7 +23,7 @@ lo, _ = grid.active_box
 x, y, z = np.mgrid[tuple(slice(0, n) for n in values.shape)]
 index = np.stack([x, y, z], -1) + lo
 world = index @ grid.affine[:3, :3].T + grid.affine[:3, 3]
-cut = np.maximum(values, 0.3 - np.abs(world[..., 0]))
+cut = np.maximum(values, (0.3 - np.abs(world[..., 0])).astype(values.dtype))
 affine = grid.affine.copy()
 affine[:3, 3] += affine[:3, :3] @ lo
 halves = pdc.Grid.from_array(cut, affine=affine, background=grid.background, grid_class="level-set")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import operator
 import warnings
-from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, Union
+from collections import abc
+from typing import Any, Callable, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +19,7 @@ class Warning(UserWarning):
     """What pdc found odd in the data, such as a volume without a surface."""
 
 
-def warn(lines: Iterable[str], level: int = 3) -> None:
+def warn(lines: abc.Iterable[str], level: int = 3) -> None:
     """Warns of each line in the name of whoever called the public function."""
     for line in lines:
         warnings.warn(line, Warning, stacklevel=level)
@@ -138,7 +139,7 @@ def flag(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def word(name: str, value: Any, choices: Sequence[str]) -> str:
+def word(name: str, value: Any, choices: abc.Sequence[str]) -> str:
     """One of several words."""
     if value not in choices or not isinstance(value, str):
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}")

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterator, List, Mapping
+from collections import abc
+from typing import Any, Dict, List
 
 from . import _core
 from ._arguments import Progress, callback, flag, path_text, thread_count
 from ._mesh import Mesh, Path, _need_mesh
 
 
-class Check(Mapping[str, Any]):
+class Check(abc.Mapping[str, Any]):
     """What check() found: facts by name, as `pdc check --json` has them.
 
     Attributes
@@ -38,7 +39,7 @@ class Check(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         return self._facts[name]
 
-    def __iter__(self) -> Iterator[str]:
+    def __iter__(self) -> abc.Iterator[str]:
         return iter(self._facts)
 
     def __len__(self) -> int:

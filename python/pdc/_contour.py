@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from collections import abc
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -247,7 +248,7 @@ def _source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source
     return _array_source(volume, given, options)
 
 
-def _refuse(given: _Given, names: Sequence[str], takers: str) -> None:
+def _refuse(given: _Given, names: abc.Sequence[str], takers: str) -> None:
     for name in names:
         if given.get(name) is not None and given[name] is not False:
             raise ValueError(f"{name} goes with {takers} only")
@@ -337,7 +338,7 @@ def _corners(box: Any) -> Tuple[Any, Any]:
 def sweep(
     volume: Volume,
     parameter: str,
-    values: Sequence[float],
+    values: abc.Sequence[float],
     *,
     meshes: bool = False,
     progress: Progress = None,
@@ -370,7 +371,7 @@ def sweep(
     --------
     >>> report = pdc.sweep(pdc.box(1.3), "sigma_normal", [0, 0.1, math.inf], box=2, resolution=12)
     >>> [step["sigma_n"] for step in report["steps"]]
-    [0.0, 0.1, 'inf']
+    [0, 0.1, 'inf']
     """
     word("parameter", parameter, ("sigma_normal", "level", "voxel_size", "adaptive"))
     checked = [_swept(parameter, i, value) for i, value in enumerate(values)]

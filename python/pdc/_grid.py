@@ -74,7 +74,7 @@ class Grid:
         if given.dtype.kind == "f" and given.dtype.itemsize == 8:
             kept = np.float64
         elif given.dtype.kind in "iu":
-            if given.dtype == np.uint64 and given.max() > np.iinfo(np.int64).max:
+            if given.dtype == np.uint64 and int(given.max()) >= 2**63:
                 raise ValueError(f"array must hold integers below 2^63, not {given.max()}")
             kept = np.int32 if np.can_cast(given.dtype, np.int32) else np.int64
         elif given.dtype.kind == "b":

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Mapping, Optional, Union
+from collections import abc
+from typing import Any, Dict, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -89,7 +90,7 @@ class Mesh:
         quads: Optional[npt.ArrayLike] = None,
         *,
         normals: Optional[npt.ArrayLike] = None,
-        properties: Optional[Mapping[str, npt.ArrayLike]] = None,
+        properties: Optional[abc.Mapping[str, npt.ArrayLike]] = None,
     ) -> None:
         points = _points("vertices", vertices)
         n = len(points)

@@ -33,7 +33,9 @@ template <typename Number>
                                const std::shared_ptr<const void>& owner) {
   const py::capsule base(new std::shared_ptr<const void>(owner),
                          [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
-  py::array array(py::dtype::of<Number>(), std::move(shape), numbers, base);
+  // NumPy would take memory of its own in place of a null pointer.
+  static constexpr Number kNothing{};
+  py::array array(py::dtype::of<Number>(), std::move(shape), numbers != nullptr ? numbers : &kNothing, base);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }

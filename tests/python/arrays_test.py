@@ -38,7 +38,7 @@ def layouts(a):
 def test_types_and_layouts_give_the_mesh_of_the_contiguous_floats(dtype):
     distances, step = sphere_values(24)
     low = 60 if np.dtype(dtype).kind == "u" else 0
-    values = (40 * distances + low).astype(dtype)
+    values = (40 * distances + low).astype(np.float32).astype(dtype)
     options = dict(level=low + 0.25, inside="low", grid_class="level-set", spacing=step)
     expected = pdc.contour(values.astype(np.float32), **options)
     assert len(expected.quads) > 500
@@ -117,7 +117,7 @@ def test_sigma_weight_and_mask_change_the_mesh():
     opened = pdc.contour(distances, spacing=step, weight=weight, open=True)
     masked = pdc.contour(distances, spacing=step, mask=weight > 0, open=True)
     assert opened.report["boundary_edges"] > 20
-    assert np.array_equal(opened.quads, masked.quads) and opened.vertices[:, 0].min() >= 10 * step - 1e-6
+    assert np.array_equal(np.sort(opened.quads, 1), np.sort(masked.quads, 1)) and opened.vertices[:, 0].min() >= 10 * step - 1e-6
     assert pdc.contour(distances, spacing=step, mask=weight > 0).report["boundary_edges"] == 0
 
 

@@ -114,7 +114,7 @@ def test_a_scene_says_what_is_not_said(root):
     plain = pdc.contour(scene)
     coarse = pdc.contour(scene, voxel_size=2 * scene.voxel_size)
     assert 3 < len(plain.vertices) / len(coarse.vertices) < 5
-    again = pdc.contour(scene.field, box=scene.box, voxel_size=scene.voxel_size)
+    again = pdc.contour(scene.field, box=scene.box, voxel_size=scene.voxel_size, sigma_normal=scene.sigma_normal)
     assert np.array_equal(plain.vertices, again.vertices)
 
 
