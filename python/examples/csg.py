@@ -21,8 +21,8 @@ def slope(points):
 
 
 block = pdc.rounded_box((2, 2, 1.4), 0.1) & pdc.function(waves, gradient=slope, lipschitz=1.3)
-hole = pdc.cylinder((0, 0, -1), (0, 0, 1), 0.35)
-holes = hole | hole.translate((0.65, 0.65, 0)).scale((1, 1, 1))
+hole = pdc.cylinder((0, 0, -1), (0, 0, 1), 0.28)
+holes = hole | hole.translate((0.55, 0.55, 0))
 part = block - holes - pdc.capsule((-1.2, 0, 0), (1.2, 0, 0), 0.15)
 
 mesh = pdc.contour(part, box=[(-1.1, -1.1, -0.8), (1.1, 1.1, 0.8)], resolution=resolution)

@@ -26,7 +26,7 @@ volume = np.asfortranarray(values.astype(np.int16))  # As files of scanners lie 
 affine = np.diag([-200 / (n - 1), -200 / (n - 1), 200 / (n // 2 - 1), 1])
 affine[:3, 3] = 100, 100, -100
 
-bone = pdc.contour(volume, level=600, inside="high", affine=affine, triangles=True)
+bone = pdc.contour(volume, level=600, inside="high", grid_class="fog", affine=affine, triangles=True)
 print(bone, "in mm:", bone.vertices.min(0), "to", bone.vertices.max(0))
 
 bone = pdc.decimate(bone, ratio=0.2)

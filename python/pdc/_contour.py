@@ -134,7 +134,7 @@ def contour(
     threads : int
         0 is all. The mesh does not depend on it.
     progress : function of (stage, share), optional
-        Called on the calling thread some 40 times a second. What it raises stops the work.
+        Called on the calling thread, at most 100 times a second. What it raises stops the work.
 
     Returns
     -------

@@ -15,7 +15,7 @@
 namespace pdc::python {
 namespace {
 
-constexpr std::chrono::milliseconds kPoll{25};
+constexpr std::chrono::milliseconds kPoll{10};
 
 std::atomic<bool> gHasRun = false;
 std::atomic<bool> gForkedAfterwards = false;

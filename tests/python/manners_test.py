@@ -17,11 +17,11 @@ import pdc
 from conftest import sphere_values
 
 # Takes several seconds to contour on any machine.
-LONG = dict(box=2.4, resolution=900, threads=2)
+LONG = dict(box=2.4, resolution=600, threads=2)
 
 
 def long_field():
-    return pdc.difference(pdc.sphere(1), pdc.gyroid(0.1, 0.3))
+    return pdc.difference(pdc.sphere(1), pdc.gyroid(0.2, 0.3))
 
 
 def test_other_threads_run_while_work_is_done():
@@ -46,7 +46,7 @@ def test_other_threads_run_while_work_is_done():
         alone = count(lambda: time.sleep(0.5))
         field = long_field()
         # One thread, so that the ticker has a processor to itself.
-        beside = count(lambda: pdc.contour(field, box=2.4, resolution=220, threads=1))
+        beside = count(lambda: pdc.contour(field, box=2.4, resolution=64, threads=1))
     finally:
         done.set()
         ticker.join()
@@ -95,7 +95,7 @@ def test_progress_is_heard_on_the_calling_thread():
         assert threading.get_ident() == here
         heard.append((stage, share))
 
-    mesh = pdc.contour(long_field(), box=2.4, resolution=160, progress=progress)
+    mesh = pdc.contour(long_field(), box=2.4, resolution=48, progress=progress)
     assert len(heard) > 3 and all(isinstance(stage, str) and 0 <= share <= 1 for stage, share in heard)
     heard.clear()
     pdc.decimate(mesh, ratio=0.5, progress=progress)
@@ -121,7 +121,7 @@ def test_work_within_progress_and_in_several_threads():
         if not inner:
             inner.append(pdc.contour(distances, spacing=step).vertices)
 
-    pdc.contour(long_field(), box=2.4, resolution=120, progress=progress)
+    pdc.contour(long_field(), box=2.4, resolution=40, progress=progress)
     assert np.array_equal(inner[0], expected)
     results = [None] * 6
 
