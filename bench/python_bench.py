@@ -28,9 +28,12 @@ def volumes(n):
         return np.maximum(np.maximum(abs(x), abs(y)), abs(z)) - np.float32(0.7)
 
     def scan():
+        """Edges blurred over some three voxels, as by a scanner, with noise of a tenth of a voxel."""
         x, y, z = axes()
-        waves = 300 * (np.sin(9 * x) * np.cos(9 * y) + np.sin(9 * y) * np.cos(9 * z) + np.sin(9 * z) * np.cos(9 * x))
-        return (waves + np.random.default_rng(1).normal(0, 30, waves.shape)).astype(np.float32)
+        waves = np.sin(9 * x) * np.cos(9 * y) + np.sin(9 * y) * np.cos(9 * z) + np.sin(9 * z) * np.cos(9 * x)
+        voxels = waves * np.float32(n / 2 / 9 / 1.5)
+        noise = np.random.default_rng(1).normal(0, 30, waves.shape)
+        return (500 * np.tanh(voxels / 1.5) + noise).astype(np.float32)
 
     return {"sphere": sphere, "noisy scan": scan, "box": box}
 
