@@ -37,7 +37,7 @@ _MAX_VOXELS = 1 << 20
 
 def contour(
     volume: Volume,
-    level: Optional[float] = None,
+    level: Union[None, str, float] = None,
     *,
     spacing: Any = None,
     origin: Any = None,
@@ -82,8 +82,8 @@ def contour(
         - A pdc.Field, or a function of points of shape (n, 3) to values as pdc.function() takes one; needs `box`, and
           `voxel_size` or `resolution`.
         - A pdc.Scene, or the path of a file that the program takes.
-    level : float, optional
-        In the volume's units. Default: 0 for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5
+    level : float or "otsu", optional
+        In the volume's units; "otsu": for arrays, between the two kinds of values that Otsu's method finds. Default: 0 for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5
         for fog volumes, what a scene says.
     spacing : float or three, optional
         For arrays: steps between values in world units. Default 1.
@@ -192,7 +192,8 @@ def contour(
 def _options(**given: Any) -> Dict[str, Any]:
     """The options that are given, checked."""
     options = dict(given)
-    options["level"] = optional_number("level", given["level"])
+    if given["level"] != "otsu":
+        options["level"] = optional_number("level", given["level"])
     for name, words in (
         ("inside", ("low", "high")),
         ("grid_class", ("level-set", "fog")),
@@ -267,10 +268,21 @@ def _array_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[
                 raise ValueError(f"{name} must have the volume's shape {values.shape}, not {companion.shape}")
         companions.append(companion)
     matrix = affine_of(given["spacing"], given["origin"], given["affine"])
-    return ("array", values, matrix, *companions), {"level": 0.0, **options}
+    chosen: Dict[str, Any] = {"level": 0.0, **options}
+    if chosen["level"] == "otsu":
+        # The program's own choice where a volume is no level set.
+        del chosen["level"]
+        chosen.setdefault("grid_class", "fog")
+    return ("array", values, matrix, *companions), chosen
+
+
+def _refuse_otsu(options: Dict[str, Any]) -> None:
+    if options.get("level") == "otsu":
+        raise ValueError("level 'otsu' goes with arrays only")
 
 
 def _grid_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
+    _refuse_otsu(options)
     _refuse(given, ("spacing", "origin", "affine", "mask"), "arrays")
     _refuse({**given, **options}, ("box", "voxel_size", "resolution"), "fields and scenes")
     _refuse(options, ("grid",), ".vdb files")
@@ -285,6 +297,7 @@ def _grid_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[S
 
 
 def _file_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
+    _refuse_otsu(options)
     _refuse(given, ("spacing", "origin", "affine", "mask", "box"), "volumes in memory")
     names = {}
     for name in ("sigma", "weight"):
@@ -298,6 +311,7 @@ def _file_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[S
 def _field_source(
     field: Field, given: _Given, options: Dict[str, Any], scene: Optional[Scene]
 ) -> Tuple[Source, Dict[str, Any]]:
+    _refuse_otsu(options)
     _refuse(given, ("spacing", "origin", "affine", "mask"), "arrays")
     _refuse(given, ("sigma", "weight"), "arrays and grids")
     _refuse(options, ("inside", "grid_class", "flood_fill"), "arrays and grids")

@@ -121,6 +121,19 @@ def test_sigma_weight_and_mask_change_the_mesh():
     assert pdc.contour(distances, spacing=step, mask=weight > 0).report["boundary_edges"] == 0
 
 
+@pytest.mark.filterwarnings("ignore::pdc.Warning")
+def test_otsu_finds_the_level_between_two_kinds_of_values():
+    distances, step = sphere_values(32)
+    noise = np.random.default_rng(5).normal(0, 20, distances.shape)
+    scan = (np.where(distances < 0, 900, 100) + noise).astype(np.int16)
+    mesh = pdc.contour(scan, "otsu", spacing=step)
+    assert 300 < mesh.report["iso"] < 700 and mesh.report["grid"]["inside"] == "high"
+    radii = np.linalg.norm(mesh.vertices - 1, axis=1)
+    assert abs(np.median(radii) - 0.7) < 0.5 * step
+    with pytest.raises(ValueError, match="level 'otsu' goes with arrays only"):
+        pdc.contour(pdc.sphere(1), "otsu", box=3, resolution=8)
+
+
 def test_not_a_number_is_an_error_or_outside():
     distances, step = sphere_values(24)
     distances[3, 4, 5] = np.nan
