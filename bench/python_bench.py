@@ -64,7 +64,8 @@ MAKERS = {"pdc": with_pdc, "scikit-image": with_skimage, "pyopenvdb": with_openv
 
 def peak(n, volume, maker):
     """Peak memory in MiB of a process that makes the array, and contours it if there is a maker."""
-    result = subprocess.run([sys.executable, __file__, "--peak", str(n), volume, maker], check=True, capture_output=True)
+    command = [sys.executable, "-W", "ignore", __file__, "--peak", str(n), volume, maker]
+    result = subprocess.run(command, check=True, capture_output=True)
     return float(result.stdout)
 
 

@@ -83,8 +83,9 @@ def contour(
           `voxel_size` or `resolution`.
         - A pdc.Scene, or the path of a file that the program takes.
     level : float or "otsu", optional
-        In the volume's units; "otsu": for arrays, between the two kinds of values that Otsu's method finds. Default: 0 for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5
-        for fog volumes, what a scene says.
+        In the volume's units. "otsu": between the two kinds of values that Otsu's method finds, for arrays. Default: 0
+        for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5 for fog volumes, what a scene
+        says.
     spacing : float or three, optional
         For arrays: steps between values in world units. Default 1.
     origin : three floats, optional
@@ -181,7 +182,13 @@ def contour(
         threads=threads,
     )
     given = {
-        "spacing": spacing, "origin": origin, "affine": affine, "sigma": sigma, "weight": weight, "mask": mask, "box": box
+        "spacing": spacing,
+        "origin": origin,
+        "affine": affine,
+        "sigma": sigma,
+        "weight": weight,
+        "mask": mask,
+        "box": box,
     }
     source, chosen = _source(volume, given, options)
     core, report = _core.contour(source, chosen, callback(progress))

@@ -16,9 +16,9 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 class Field:
     """A function of space, negative inside: what scenes are made of, and as they are.
 
-    Functions of this module make fields. ``a | b`` unites, ``a & b`` intersects, ``a - b`` subtracts, ``~a`` swaps inside
-    and outside; the functions union(), intersection() and difference() do so with any number, and with fillets. Fields
-    do not change. Lengths are in world units.
+    Functions of this module make fields. ``a | b`` unites, ``a & b`` intersects, ``a - b`` subtracts, ``~a`` swaps
+    inside and outside; the functions union(), intersection() and difference() do so with any number, and with fillets.
+    Fields do not change. Lengths are in world units.
 
     Examples
     --------

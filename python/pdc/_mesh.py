@@ -74,7 +74,8 @@ class Mesh:
 
     Examples
     --------
-    >>> tetrahedron = pdc.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> tetrahedron = pdc.Mesh(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
     >>> tetrahedron.triangles.dtype, tetrahedron.vertices.flags.writeable
     (dtype('uint32'), False)
     """

@@ -61,7 +61,8 @@ def scene(path: Path) -> Scene:
 
     Examples
     --------
-    >>> _ = open("ball.yaml", "w").write("box: [[-1, -1, -1], [1, 1, 1]]\\nresolution: 20\\nshape: {sphere: {radius: 0.8}}")
+    >>> text = "box: [[-1, -1, -1], [1, 1, 1]]\\nresolution: 20\\nshape: {sphere: {radius: 0.8}}"
+    >>> _ = open("ball.yaml", "w").write(text)
     >>> pdc.scene("ball.yaml").voxel_size
     0.1
     """
