@@ -1,5 +1,6 @@
 """Fields, scenes and functions of Python."""
 
+import os
 import time
 
 import numpy as np
@@ -89,6 +90,7 @@ def test_what_a_function_raises_passes_through():
         pdc.contour(lambda p: np.where(p[:, 0] > 0, np.nan, 1), box=2, resolution=16)
 
 
+@pytest.mark.skipif(bool(os.environ.get("PDC_SANITIZED")), reason="sanitizers slow one side down")
 def test_a_function_at_128_takes_within_5_times_sampling_it_densely():
     def f(points):
         return np.sqrt((points * points).sum(axis=1)) - 1

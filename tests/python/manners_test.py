@@ -49,6 +49,7 @@ class Ticker:
         return (self.turns - turns) / (time.perf_counter() - begin)
 
 
+@pytest.mark.skipif(bool(os.environ.get("PDC_SANITIZED")), reason="sanitizers slow one side down")
 def test_other_threads_run_while_work_is_done(program):
     """The ticker takes 80 % of the turns that it takes beside the same work in another process, which holds no lock."""
     formula = "x^2 + y^2 + z^2 - 1 + 0.05 * sin(20 * x)"
