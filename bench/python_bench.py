@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The table of docs/python.md: pdc beside scikit-image and pyopenvdb, from arrays to arrays, in one process.
 
-Times are the best of several runs, the libraries in turn. Peak memory is that of a process of its own that makes the
+Times are the best of several runs, the libraries in turn; processor seconds are those of all threads. Peak memory is that of a process of its own that makes the
 array and contours it once, less that of one that makes the array only. Needs python3-skimage and python3-openvdb.
 Usage: PYTHONPATH=build/release/python bench/python_bench.py [N]
 """
@@ -80,22 +80,24 @@ def measure_peak(n, volume, maker):
 
 
 def main(n):
-    print("| volume | library | seconds | vertices | faces | times pdc | peak memory, MiB |")
-    print("|---|---|---|---|---|---|---|")
+    print("| volume | library | seconds | processor seconds | vertices | faces | times pdc | peak memory, MiB |")
+    print("|---|---|---|---|---|---|---|---|")
     for volume, make in volumes(n).items():
         array = make()
         best = dict.fromkeys(MAKERS, float("inf"))
+        work = dict.fromkeys(MAKERS, float("inf"))
         sizes = {}
         for _ in range(5):
             for name, maker in MAKERS.items():
-                begin = time.perf_counter()
+                begin, worked = time.perf_counter(), time.process_time()
                 vertices, faces = maker(array)[:2]
                 best[name] = min(best[name], time.perf_counter() - begin)
+                work[name] = min(work[name], time.process_time() - worked)
                 sizes[name] = len(vertices), len(faces)
                 del vertices, faces
         for name in MAKERS:
             more = peak(n, volume, name) - peak(n, volume, "none")
-            print(f"| {volume} | {name} | {best[name]:.3f} | {sizes[name][0]} | {sizes[name][1]} "
+            print(f"| {volume} | {name} | {best[name]:.3f} | {work[name]:.3f} | {sizes[name][0]} | {sizes[name][1]} "
                   f"| {best[name] / best['pdc']:.1f} | {more:.0f} |", flush=True)
 
 
