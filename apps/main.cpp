@@ -13,9 +13,10 @@
 #include "commands/grid_command.h"
 #include "commands/info_command.h"
 #include "commands/mesh_command.h"
+#include "commands/points/points_commands.h"
 #include "commands/render_command.h"
-#include "commands/subdivide_command.h"
 #include "commands/smooth_command.h"
+#include "commands/subdivide_command.h"
 #include "commands/sweep_command.h"
 #include "parallel/machine_memory.h"
 #include "pdc/error.h"
@@ -61,8 +62,7 @@ int run(int argc, char** argv) {
   CLI::App* decimateCommand = app.add_subcommand("decimate", "Write a mesh with fewer triangles");
   pdc::addDecimateOptions(*decimateCommand, decimate);
   pdc::ClusterRequest cluster;
-  CLI::App* clusterCommand =
-      app.add_subcommand("cluster", "Write a mesh with one vertex for each cell of a grid, fast");
+  CLI::App* clusterCommand = app.add_subcommand("cluster", "Write a mesh with one vertex per cell of a grid, fast");
   pdc::addClusterOptions(*clusterCommand, cluster);
   pdc::SubdivideRequest subdivide;
   CLI::App* subdivideCommand = app.add_subcommand("subdivide", "Refine a mesh into a smooth surface");
@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   pdc::SmoothRequest smooth;
   CLI::App* smoothCommand = app.add_subcommand("smooth", "Write a mesh without its noise, creases kept");
   pdc::addSmoothOptions(*smoothCommand, smooth);
+  const pdc::PointsCommands points(app);
   pdc::SweepRequest sweep;
   CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
   pdc::addSweepOptions(*sweepCommand, sweep);
@@ -89,6 +90,7 @@ int run(int argc, char** argv) {
   if (clusterCommand->parsed()) pdc::runCluster(cluster);
   if (subdivideCommand->parsed()) pdc::runSubdivide(subdivide);
   if (smoothCommand->parsed()) pdc::runSmooth(smooth);
+  points.run();
   if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
   return kDone;
 }

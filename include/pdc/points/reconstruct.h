@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "pdc/extract/contour.h"
+#include "pdc/mesh/mesh.h"
+#include "pdc/monitor.h"
+#include "pdc/points/gaussian_mixture.h"
+#include "pdc/points/point_cloud.h"
+#include "pdc/points/triangulate_mixture.h"
+
+namespace pdc {
+
+struct ReconstructOptions {
+  MixtureOptions mixture{};
+  TriangulateOptions triangulation{};
+  /// How many times the covariance mesh is refined, 0 to 31; its vertices are on the limit surface then.
+  int subdivisions = 1;
+};
+
+struct ReconstructReport {
+  MixtureReport mixture;
+  TriangulateReport triangulation;
+  std::size_t gaussians = 0, controlTriangles = 0;
+  double secondsMixture = 0, secondsTriangulate = 0, secondsSubdivide = 0;  ///< Wall-clock time.
+};
+
+/// A surface from points that need no normals (Preiner et al. 2019): gaussianMixture(), triangulate(), and subdivide()
+/// with products of Gaussians, whose limit surface runs along the ridge of the mixture.
+///
+/// \param covarianceMesh if given, what triangulate() made: with the covariances it is all that the surface needs.
+/// \returns triangles; as open as the covariance mesh. \throws as those functions do; Error if no three Gaussians
+/// overlap. The result depends neither on the number of threads nor on the order of the points.
+[[nodiscard]] Mesh reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
+                               ReconstructReport* report = nullptr, Mesh* covarianceMesh = nullptr,
+                               const Monitor& monitor = {});
+
+}  // namespace pdc

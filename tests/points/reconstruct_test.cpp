@@ -1,0 +1,63 @@
+#include "pdc/points/reconstruct.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "parallel/with_threads.h"
+#include "pdc/error.h"
+#include "pdc/mesh/mesh_report.h"
+#include "points/point_shapes.h"
+#include "simplify/same_bytes.h"
+
+namespace pdc {
+namespace {
+
+TEST(Reconstruct, IsCloserToASphereThanItsPoints) {
+  constexpr double kNoise = 0.01;
+  ReconstructReport report;
+  Mesh covarianceMesh;
+  const Mesh mesh = reconstruct(test::noisySphere(30000, kNoise), {}, &report, &covarianceMesh);
+  double sum = 0;
+  for (const Vec3f& p : mesh.positions) sum += std::pow(length(vecCast<double>(p)) - 1, 2);
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(mesh.positions.size())), 0.4 * kNoise);
+  EXPECT_LT(report.gaussians, 30000U / 6);
+  EXPECT_EQ(report.controlTriangles, covarianceMesh.triangles.size());
+  EXPECT_EQ(mesh.triangles.size(), 4 * covarianceMesh.triangles.size());
+  EXPECT_EQ(report.triangulation.components, 1U);
+}
+
+TEST(Reconstruct, DependsNeitherOnThreadsNorOnTheOrderOfThePoints) {
+  PointCloud cloud = test::noisySphere(6000, 0.01);
+  const Mesh one = detail::withThreads(1, [&] { return reconstruct(cloud); });
+  EXPECT_TRUE(test::sameBytes(one, detail::withThreads(3, [&] { return reconstruct(cloud); })));
+  std::shuffle(cloud.positions.begin(), cloud.positions.end(), std::mt19937_64(2));
+  EXPECT_TRUE(test::sameBytes(one, reconstruct(cloud)));
+}
+
+TEST(Reconstruct, SaysThatPointsMakeNoSurface) {
+  PointCloud line;
+  for (int i = 0; i < 100; ++i) line.positions.push_back({0.1 * i, 0, 0});
+  try {
+    (void)reconstruct(line);
+    FAIL() << "a line has no surface";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no surface"), std::string::npos);
+  }
+}
+
+TEST(Reconstruct, MakesAPlaneOfPointsOnAPlane) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  PointCloud cloud;
+  for (int i = 0; i < 5000; ++i) cloud.positions.push_back({uniform(random), uniform(random), 2});
+  const Mesh mesh = reconstruct(cloud);
+  for (const Vec3f& p : mesh.positions) EXPECT_EQ(p.z, 2);
+  EXPECT_NEAR(analyze(mesh).area, 1, 0.1);
+}
+
+}  // namespace
+}  // namespace pdc
