@@ -10,6 +10,7 @@
 #include "parallel/with_threads.h"
 #include "pdc/error.h"
 #include "pdc/mesh/mesh_report.h"
+#include "pdc/mesh/self_intersections.h"
 #include "points/point_shapes.h"
 #include "simplify/same_bytes.h"
 
@@ -36,6 +37,18 @@ TEST(Reconstruct, DependsNeitherOnThreadsNorOnTheOrderOfThePoints) {
   EXPECT_TRUE(test::sameBytes(one, detail::withThreads(3, [&] { return reconstruct(cloud); })));
   std::shuffle(cloud.positions.begin(), cloud.positions.end(), std::mt19937_64(2));
   EXPECT_TRUE(test::sameBytes(one, reconstruct(cloud)));
+}
+
+TEST(Reconstruct, ContoursAClosedSurfaceWithoutSelfIntersections) {
+  // Half a sphere: what is open is closed first.
+  PointCloud cloud = test::noisySphere(20000, 0.01);
+  std::erase_if(cloud.positions, [](const Vec3d& p) { return p.z < 0; });
+  const Mesh mesh = reconstruct(cloud, {.voxelSize = 0.05});
+  const MeshReport facts = analyze(mesh);
+  EXPECT_EQ(facts.boundaryEdges + facts.nonManifoldEdges + facts.nonManifoldVertices + facts.misorientedEdges, 0U);
+  EXPECT_EQ(facts.eulerNumber, 2);
+  EXPECT_NEAR(facts.volume, 2.0944, 0.1);
+  EXPECT_EQ(selfIntersections(mesh).pairs.size(), 0U);
 }
 
 TEST(Reconstruct, SaysThatPointsMakeNoSurface) {

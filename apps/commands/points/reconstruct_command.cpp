@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,7 @@ Json toJson(const ReconstructRequest& request, const ReconstructRun& run) {
             {"mixture", r.secondsMixture},
             {"triangulate", r.secondsTriangulate},
             {"subdivide", r.secondsSubdivide},
+            {"contour", r.secondsContour},
             {"write", run.secondsWrite}}},
           {"warnings", run.warnings}};
 }
@@ -66,9 +68,12 @@ void printSummary(const ReconstructRequest& request, const ReconstructRun& run) 
              run.triangles, run.vertices, r.mixture.points, r.gaussians, run.bytesWritten);
   fmt::print("{} components, {} boundaries, {} Gaussians unused\n", r.triangulation.components,
              r.triangulation.boundaryLoops, r.triangulation.unusedGaussians);
-  fmt::print("{:.2f} s: reading {:.2f}, mixture {:.2f}, triangles {:.2f}, subdividing {:.2f}, writing {:.2f}\n",
-             run.secondsRead + r.secondsMixture + r.secondsTriangulate + r.secondsSubdivide + run.secondsWrite,
-             run.secondsRead, r.secondsMixture, r.secondsTriangulate, r.secondsSubdivide, run.secondsWrite);
+  fmt::print(
+      "{:.2f} s: reading {:.2f}, mixture {:.2f}, triangles {:.2f}, subdividing {:.2f}, contouring {:.2f}, "
+      "writing {:.2f}\n",
+      run.secondsRead + r.secondsMixture + r.secondsTriangulate + r.secondsSubdivide + r.secondsContour +
+          run.secondsWrite,
+      run.secondsRead, r.secondsMixture, r.secondsTriangulate, r.secondsSubdivide, r.secondsContour, run.secondsWrite);
 }
 
 void checkRequest(const ReconstructRequest& request) {
@@ -99,6 +104,11 @@ void addReconstructOptions(CLI::App& command, ReconstructRequest& request) {
   addInteger(command, "--subdivide", request.subdivisions, 0, 10, "How many times triangles are split into four (1)")
       ->type_name("N")
       ->group(surface);
+  addReal(
+      command, "--voxel-size", request.voxelSize, [](double v) { return v > 0 && std::isfinite(v); },
+      "a finite number above 0", "Close the surface and contour its distances with voxels of\nthis size")
+      ->type_name("H")
+      ->group(surface);
   const auto output = "Output";
   command.add_option("--mesh-covariances", request.covariances, "Also write the covariance mesh, a .ply")
       ->type_name("FILE")
@@ -122,6 +132,7 @@ void runReconstruct(const ReconstructRequest& request) {
   options.mixture = mixtureOptions(request.mixture);
   options.triangulation.leastOverlap = request.leastOverlap.value_or(options.triangulation.leastOverlap);
   options.triangulation.close = request.close;
+  options.voxelSize = request.voxelSize;
   options.subdivisions = request.subdivisions.value_or(options.subdivisions);
   Mesh covarianceMesh;
   const Mesh mesh = makeWithBar(request, [&](const Monitor& monitor) {

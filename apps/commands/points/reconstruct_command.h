@@ -13,7 +13,7 @@ namespace pdc {
 struct ReconstructRequest {
   std::filesystem::path input, output, covariances, json;
   MixtureRequest mixture;
-  std::optional<double> leastOverlap;
+  std::optional<double> leastOverlap, voxelSize;
   std::optional<int> subdivisions, threads;
   bool close = false, ascii = false, quiet = false;
 };

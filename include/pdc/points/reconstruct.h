@@ -16,21 +16,26 @@ struct ReconstructOptions {
   TriangulateOptions triangulation{};
   /// How many times the covariance mesh is refined, 0 to 31; its vertices are on the limit surface then.
   int subdivisions = 1;
+  /// Contours that surface again, closed: as a level set of signed distances with voxels of this size, in world units,
+  /// above 0 and finite. The triangulation then closes all boundaries. Not set: the surface as it is.
+  std::optional<double> voxelSize{};
 };
 
 struct ReconstructReport {
   MixtureReport mixture;
   TriangulateReport triangulation;
   std::size_t gaussians = 0, controlTriangles = 0;
-  double secondsMixture = 0, secondsTriangulate = 0, secondsSubdivide = 0;  ///< Wall-clock time.
+  double secondsMixture = 0, secondsTriangulate = 0, secondsSubdivide = 0, secondsContour = 0;  ///< Wall-clock time.
 };
 
 /// A surface from points that need no normals (Preiner et al. 2019): gaussianMixture(), triangulate(), and subdivide()
 /// with products of Gaussians, whose limit surface runs along the ridge of the mixture.
 ///
 /// \param covarianceMesh if given, what triangulate() made: with the covariances it is all that the surface needs.
-/// \returns triangles; as open as the covariance mesh. \throws as those functions do; Error if no three Gaussians
-/// overlap. The result depends neither on the number of threads nor on the order of the points.
+/// \returns triangles; as open as the covariance mesh. With a voxel size they are what contour() promises for level
+/// sets: closed, manifold and free of self-intersections; parts thinner than a voxel or so are lost. \throws as those
+/// functions do; Error if no three Gaussians overlap. The result depends neither on the number of threads nor on the
+/// order of the points.
 [[nodiscard]] Mesh reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                                ReconstructReport* report = nullptr, Mesh* covarianceMesh = nullptr,
                                const Monitor& monitor = {});
