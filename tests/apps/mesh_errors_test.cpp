@@ -162,7 +162,7 @@ TEST_F(MeshErrors, ReportFolderMissing) {
 TEST_F(MeshErrors, UnknownOutputSuffix) { expectRefusal({mBullet, mFolder / "out.stp"}, kFailed, {"out.stp", ".ply"}); }
 
 TEST_F(MeshErrors, UnknownInputSuffix) {
-  expectRefusal({mFolder.write("volume.raw", "x")}, kFailed, {"volume.raw", ".vdb", ".yaml"});
+  expectRefusal({mFolder.write("volume.txt", "x")}, kFailed, {"volume.txt", ".vdb", ".yaml", ".stl"});
 }
 
 TEST_F(MeshErrors, FullDisk) {

@@ -98,7 +98,7 @@ TEST_F(MeshInputs, Refusals) {
     arguments.insert(arguments.begin() + 2, mOutput);
     expectOneLineRefusal(runPdc(arguments), code, mentions);
   };
-  refused({mCube, "--open"}, 2, {"--open", ".vdb inputs and scenes only"});
+  refused({mCube, "--open"}, 2, {"--open", "grids, volumes and scenes only"});
   refused({mCube, "--iso", "1"}, 2, {"--iso", "only"});
   refused({mCube, "--grid", "a"}, 2, {"--grid", ".vdb inputs only"});
   refused({mCube, "--smooth", "mean:1"}, 2, {"a step on grids but --offset"});

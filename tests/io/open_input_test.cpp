@@ -69,7 +69,7 @@ TEST_F(OpenInput, OptionsReachTheGrid) {
   const auto path = grids();
   const std::size_t values = sphere()->activeVoxelCount();
   const Input input =
-      openInput(path, {.iso = 0.25, .grid = "sphere", .hermite = HermiteMode::kGradient, .sigmaGrid = "sigma"});
+      openInput(path, {.iso = 0.25, .hermite = HermiteMode::kGradient, .grid = "sphere", .sigmaGrid = "sigma"});
   EXPECT_EQ(input.iso, 0.25);
   EXPECT_EQ(input.planeOrigin, PlaneOrigin::kGradient);
   EXPECT_EQ(input.refusedNoise, 0u);
@@ -187,15 +187,14 @@ TEST_F(OpenInput, RefusesOptionsOfTheOtherKind) {
   const auto grid = write({sphere()});
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.voxelSize = 1}), "a voxel size goes with scenes and meshes only"));
   EXPECT_TRUE(mentions(errorOfOpening(grid, {.resolution = 9}), "a resolution goes with scenes and meshes only"));
-  const InputOptions forGrids[] = {{.grid = "a"},
-                                   {.hermite = HermiteMode::kGradient},
-                                   {.gridClass = GridClass::kLevelSet},
-                                   {.inside = InsideValues::kLow},
-                                   {.floodFill = true},
-                                   {.sigmaGrid = "a"},
-                                   {.weightGrid = "a"}};
+  const InputOptions forGrids[] = {{.grid = "a"}, {.floodFill = true}, {.sigmaGrid = "a"}, {.weightGrid = "a"}};
   for (const InputOptions& options : forGrids)
     EXPECT_TRUE(mentions(errorOfOpening(scene(), options), ".vdb inputs only")) << errorOfOpening(scene(), options);
+  const InputOptions forValues[] = {
+      {.hermite = HermiteMode::kGradient}, {.gridClass = GridClass::kLevelSet}, {.inside = InsideValues::kLow}};
+  for (const InputOptions& options : forValues)
+    EXPECT_TRUE(mentions(errorOfOpening(scene(), options), "grids and volumes only"))
+        << errorOfOpening(scene(), options);
 }
 
 TEST_F(OpenInput, Refusals) {

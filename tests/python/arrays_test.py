@@ -144,8 +144,8 @@ def test_not_a_number_is_an_error_or_outside():
 
 
 def test_no_surface_is_an_empty_mesh_and_a_warning():
-    with pytest.warns(pdc.Warning, match="no surface at level 0; the mesh is empty") as caught:
-        mesh = pdc.contour(np.ones((5, 6, 7), np.float32))
+    with pytest.warns(pdc.Warning, match="no surface at level 2; the mesh is empty") as caught:
+        mesh = pdc.contour(np.ones((5, 6, 7), np.float32), 2)
     assert len(mesh.vertices) == 0 and len(mesh.faces) == 0
     assert caught[0].filename == __file__
 

@@ -248,7 +248,7 @@ TEST(ReadMesh, FilesThatCannotBeReadAreErrors) {
   ASSERT_EQ(::mkfifo((folder / "pipe.ply").c_str(), 0600), 0);
   EXPECT_THROW(static_cast<void>(readMesh(folder / "pipe.ply")), Error);
   for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) EXPECT_EQ(errorOf(name, ""), "the file is empty");
-  EXPECT_NE(errorOf("a.ply.gz", "x").find(".gz"), std::string::npos);
+  EXPECT_EQ(errorOf("a.ply.gz", "x"), "the compressed data ends early");
 }
 
 TEST(ReadMesh, DamagedPlyIsAnError) {

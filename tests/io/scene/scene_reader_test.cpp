@@ -327,13 +327,16 @@ std::vector<std::string> yamlBlocks(const fs::path& file) {
 }
 
 TEST(SceneReader, ReadsTheExamplesOfItsReadme) {
-  // Beside a link to the tests' data, as the examples' relative paths have it.
+  // Beside a link to the tests' data and a mesh, as the examples' relative paths have it.
   const TemporaryFolder folder;
   fs::create_directory(folder / "scenes");
   fs::create_directory_symlink(test::sourceFolder() / "tests", folder / "tests");
+  writeContents(folder / "scenes" / "part.stl",
+                "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                "endloop\nendfacet\nendsolid\n");
   const fs::path file = folder.path() / "scenes" / "example.yaml";
   const std::vector<std::string> blocks = yamlBlocks(kScenes / "README.md");
-  EXPECT_EQ(blocks.size(), 2u + 13 + 10);
+  EXPECT_EQ(blocks.size(), 2u + 13 + 11);
   for (const std::string& block : blocks) {
     writeContents(file, block.find("\nshape:") != std::string::npos ? block : withShape(block));
     EXPECT_EQ(errorOf(file), "no error") << block;
