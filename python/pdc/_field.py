@@ -329,7 +329,7 @@ def function(
     Parameters
     ----------
     f : function of an array of shape (n, 3) to one of shape (n,)
-        Negative inside, NaN where there is no value. It is called with up to 256 points at a time, from several threads
+        Negative inside, NaN where there is no value. It is called with up to 1,792 points at a time, from several threads
         in turn, and must depend on each point alone. What it raises passes through.
     gradient : function of an array of shape (n, 3) to one of shape (n, 3), optional
         In value per world unit. Without it each gradient takes six more values.

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "convert.h"
 #include "field/boundary.h"
 #include "field/central_differences.h"
 #include "field/interval_arithmetic.h"
+#include "polite_run.h"
 
 namespace pdc::python {
 namespace {
@@ -25,6 +27,19 @@ SharedObject share(const py::object& object) {
             delete p;
           }};
 }
+
+/// The interpreter's lock, on whichever thread needs it.
+class InterpreterLock {
+ public:
+  InterpreterLock() {
+    // Threads of TBB may outlive the interpreter, which takes along what it holds of them.
+    if (PyGILState_GetThisThreadState() == nullptr) static_cast<void>(new ThreadState);
+    mLock.emplace();
+  }
+
+ private:
+  std::optional<py::gil_scoped_acquire> mLock;
+};
 
 py::array_t<double> arrayOf(PointSpan points) {
   py::array_t<double> array({static_cast<py::ssize_t>(points.size), py::ssize_t{3}});
@@ -56,19 +71,19 @@ class CallableField final : public Field {
       : mFunction(share(f)), mGradient(gradient.is_none() ? nullptr : share(gradient)), mLipschitz(lipschitz) {}
 
   void values(PointSpan points, double* values) const override {
-    const py::gil_scoped_acquire acquire;
+    const InterpreterLock lock;
     const auto result = callFor(mFunction, points, false);
     std::transform(result.data(), result.data() + points.size, values, [](double v) { return detail::open(v); });
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    this->values(points, values);
     if (!mGradient) {
-      const auto evaluate = [this](PointSpan moved, double* result) { this->values(moved, result); };
-      detail::centralDifferences(points, evaluate, gradients);
+      const auto evaluate = [this](PointSpan all, double* result) { this->values(all, result); };
+      detail::centralDifferences(points, evaluate, values, gradients);
       return;
     }
-    const py::gil_scoped_acquire acquire;
+    this->values(points, values);
+    const InterpreterLock lock;
     const auto result = callFor(mGradient, points, true);
     for (std::size_t i = 0; i < points.size; ++i) {
       gradients.x[i] = result.data()[3 * i];

@@ -95,10 +95,13 @@ void runPolitely(const py::object& progress, const Work& work) {
   {
     const py::gil_scoped_release release;
     std::thread worker([&] {
-      try {
-        work(monitor);
-      } catch (...) {
-        failure = std::current_exception();
+      {
+        const ThreadState state;
+        try {
+          work(monitor);
+        } catch (...) {
+          failure = std::current_exception();
+        }
       }
       watch.finish();
     });

@@ -12,6 +12,24 @@ namespace pdc::python {
 
 namespace py = pybind11;
 
+/// What Python holds of a thread that it did not start, for as long as this lives. Without it each call into Python
+/// makes and unmakes that, which maps and unmaps memory and makes all processors wait. Made and ended on that thread,
+/// without the interpreter's lock.
+class ThreadState {
+ public:
+  ThreadState() : mHandle(PyGILState_Ensure()), mState(PyEval_SaveThread()) {}
+  ThreadState(const ThreadState&) = delete;
+  ThreadState& operator=(const ThreadState&) = delete;
+  ~ThreadState() {
+    PyEval_RestoreThread(mState);
+    PyGILState_Release(mHandle);
+  }
+
+ private:
+  PyGILState_STATE mHandle;
+  PyThreadState* mState;
+};
+
 using Work = std::function<void(const Monitor&)>;
 
 /// Calls work(monitor) on a thread of its own, with the interpreter's lock released, and waits for it. Meanwhile the

@@ -124,9 +124,8 @@ class FormulaField final : public Field {
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    this->values(points, values);
-    const auto evaluate = [this](PointSpan moved, double* result) { this->values(moved, result); };
-    detail::centralDifferences(points, evaluate, gradients);
+    const auto evaluate = [this](PointSpan all, double* result) { this->values(all, result); };
+    detail::centralDifferences(points, evaluate, values, gradients);
   }
 
   [[nodiscard]] Interval bound(const Box& box) const override {

@@ -23,12 +23,12 @@ class FunctionField final : public Field {
   }
 
   void gradients(PointSpan points, double* values, GradientSpan gradients) const override {
-    this->values(points, values);
     if (!mOptions.gradient) {
-      const auto evaluate = [this](PointSpan moved, double* result) { this->values(moved, result); };
-      detail::centralDifferences(points, evaluate, gradients);
+      const auto evaluate = [this](PointSpan all, double* result) { this->values(all, result); };
+      detail::centralDifferences(points, evaluate, values, gradients);
       return;
     }
+    this->values(points, values);
     for (std::size_t i = 0; i < points.size; ++i) {
       const Vec3d g = mOptions.gradient({points.x[i], points.y[i], points.z[i]});
       gradients.x[i] = g.x;
