@@ -21,6 +21,47 @@ constexpr double kFarthest = 1 << 30;
 
 double volumeOf(const openvdb::Vec3d& v) { return std::abs(v.x() * v.y() * v.z()); }
 
+using SampledGrids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::BoolGrid>;
+
+openvdb::Vec3d cornerOf(const openvdb::CoordBBox& box, int corner) {
+  openvdb::Vec3d p;
+  for (int axis = 0; axis < 3; ++axis) p[axis] = ((corner >> axis & 1) != 0 ? box.max() : box.min())[axis];
+  return p;
+}
+
+/// By how much the voxels of a box become more on another lattice, at least 1. Lattices of a frustum grow differently
+/// from place to place, and OpenVDB samples the whole box about what becomes of a leaf or a tile.
+double growthOf(const openvdb::math::Transform& from, const openvdb::math::Transform& to,
+                const openvdb::CoordBBox& box) {
+  if (from.isLinear() && to.isLinear()) return std::max(1.0, volumeOf(from.voxelSize()) / volumeOf(to.voxelSize()));
+  openvdb::BBoxd reached;
+  for (int corner = 0; corner < 8; ++corner) reached.expand(to.worldToIndex(from.indexToWorld(cornerOf(box, corner))));
+  return std::max(1.0, volumeOf(reached.extents()) / static_cast<double>(box.volume()));
+}
+
+/// What OpenVDB samples of a grid: active values, and inactive tiles of values other than the background.
+struct Sampled {
+  openvdb::CoordBBox box;
+  double voxels = 0;  ///< On the other lattice.
+};
+
+template <typename GridT>
+Sampled sampledOf(const GridT& grid, const openvdb::math::Transform& target) {
+  Sampled sampled{.box = grid.evalActiveVoxelBoundingBox()};
+  for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf)
+    sampled.voxels +=
+        static_cast<double>(leaf->onVoxelCount()) * growthOf(grid.transform(), target, leaf->getNodeBoundingBox());
+  auto tile = grid.cbeginValueAll();
+  tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);
+  for (; tile; ++tile) {
+    if (!tile.isValueOn() && openvdb::math::isApproxEqual(*tile, grid.background())) continue;
+    const openvdb::CoordBBox box = tile.getBoundingBox();
+    sampled.box.expand(box);
+    sampled.voxels += static_cast<double>(box.volume()) * growthOf(grid.transform(), target, box);
+  }
+  return sampled;
+}
+
 /// Refuses a contour, and a level set of it, that would take all memory, before either is made.
 void checkContour(const GridSource& source, const ContourOptions& options, const openvdb::math::Transform& transform,
                   double halfWidth, const Monitor& monitor) {
@@ -47,12 +88,11 @@ Mesh contourFor(const GridVolume& volume, const openvdb::math::Transform& transf
 }  // namespace
 
 void checkResampling(const openvdb::GridBase& grid, const openvdb::math::Transform& target) {
-  const openvdb::CoordBBox active = grid.evalActiveVoxelBoundingBox();
-  if (active.empty()) return;
+  Sampled sampled;
+  grid.apply<SampledGrids>([&](const auto& typed) { sampled = sampledOf(typed, target); });
+  if (sampled.box.empty()) return;
   for (int corner = 0; corner < 8; ++corner) {
-    openvdb::Vec3d p;
-    for (int axis = 0; axis < 3; ++axis) p[axis] = ((corner >> axis & 1) != 0 ? active.max() : active.min())[axis];
-    p = target.worldToIndex(grid.indexToWorld(p));
+    const openvdb::Vec3d p = target.worldToIndex(grid.indexToWorld(cornerOf(sampled.box, corner)));
     for (int axis = 0; axis < 3; ++axis)
       if (!(std::abs(p[axis]) < kFarthest))
         throw Error(fmt::format("the new grid would reach {:.3g} voxels from the origin; at most {:.3g}",
@@ -60,9 +100,7 @@ void checkResampling(const openvdb::GridBase& grid, const openvdb::math::Transfo
   }
   // A voxel and as much again for leaves that are not full. Tiles are given up.
   constexpr double kBytes = 2 * sizeof(double);
-  const openvdb::Vec3d center = active.getCenter();
-  const double growth = volumeOf(grid.transform().voxelSize(center)) / volumeOf(target.voxelSize());
-  checkVoxels(static_cast<double>(grid.activeVoxelCount()) * std::max(growth, 1.0), kBytes);
+  checkVoxels(sampled.voxels, kBytes);
 }
 
 openvdb::math::Transform::Ptr cubicTransform(const openvdb::math::Transform& old, double voxelSize) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/GridTransformer.h>
+#include <openvdb/tools/Prune.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,26 +13,44 @@
 #include "grid/level_set.h"
 #include "grid/monitor_interrupter.h"
 #include "grid/real_grid.h"
+#include "parallel/with_threads.h"
 #include "pdc/error.h"
 
 namespace pdc {
 namespace {
 
 template <typename GridT>
+void sample(const GridT& from, GridT& to, ResampleMethod method, const Monitor& monitor) {
+  detail::MonitorInterrupter interrupter(monitor, "resampling");
+  openvdb::util::NullInterrupter& base = interrupter;
+  if (method == ResampleMethod::kQuadratic) {
+    openvdb::tools::resampleToMatch<openvdb::tools::QuadraticSampler>(from, to, base);
+  } else {
+    openvdb::tools::resampleToMatch<openvdb::tools::BoxSampler>(from, to, base);
+  }
+}
+
+/// Whether inactive values say more than the background does, as those inside of a level set do.
+template <typename GridT>
+bool hasInactiveValues(const GridT& grid) {
+  for (auto value = grid.cbeginValueOff(); value; ++value)
+    if (*value != grid.background()) return true;
+  return false;
+}
+
+template <typename GridT>
 typename GridT::Ptr interpolated(const GridT& grid, const openvdb::math::Transform& target, ResampleMethod method,
                                  const Monitor& monitor) {
   auto result = GridT::create(grid.background());
   result->setTransform(target.copy());
-  // Signs that are stored in tiles are filled in again for this class only.
-  result->setGridClass(grid.getGridClass());
-  detail::MonitorInterrupter interrupter(monitor, "resampling");
-  openvdb::util::NullInterrupter& base = interrupter;
   // OpenVDB rebuilds what is of class level set, and does not interpolate it.
   const auto source = openvdb::gridConstPtrCast<GridT>(grid.copyGridReplacingMetadata(openvdb::MetaMap()));
-  if (method == ResampleMethod::kQuadratic) {
-    openvdb::tools::resampleToMatch<openvdb::tools::QuadraticSampler>(*source, *result, base);
+  if (hasInactiveValues(grid)) {
+    // Where OpenVDB joins what threads made, it forgets inactive values. One thread has nothing to join.
+    detail::withThreads(1, [&] { sample(*source, *result, method, monitor); });
+    openvdb::tools::prune(result->tree());
   } else {
-    openvdb::tools::resampleToMatch<openvdb::tools::BoxSampler>(*source, *result, base);
+    sample(*source, *result, method, monitor);
   }
   return result;
 }
