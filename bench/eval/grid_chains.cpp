@@ -178,7 +178,8 @@ class Chain {
     GridVolume volume = settleGrid(anyGrid(), settle);
     applyGridSteps(volume, makeSteps());
     const GridSource source(volume.grid, {.iso = volume.iso, .gridClass = volume.gridClass, .inside = volume.inside});
-    const MeshReport report = analyze(contour(source));
+    // Between tiles of thousands of voxels there can be surfaces of a hundred million vertices, which take minutes.
+    const MeshReport report = analyze(contour(source, {.maxMemory = std::size_t{1} << 30}));
     if (report.boundaryEdges + report.nonManifoldEdges + report.misorientedEdges > 0)
       mOutcome.fault = "a mesh that is open or no manifold";
   }
