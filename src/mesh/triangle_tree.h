@@ -74,10 +74,16 @@ class TriangleTree {
       return;
     }
     const std::size_t first = kFan * node, count = std::min(kFan, mLevels[level - 1].size() - first);
-    std::array<std::pair<double, std::size_t>, kFan> order;
-    for (std::size_t i = 0; i < count; ++i) order[i] = {mLevels[level - 1][first + i].squaredDistance(p), first + i};
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count && order[i].first < reach; ++i)
+    std::array<std::pair<double, std::size_t>, kFan> order;  // Those near enough, by distance and then by number.
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double squared = mLevels[level - 1][first + i].squaredDistance(p);
+      if (!(squared < reach)) continue;
+      std::size_t place = near++;
+      for (; place > 0 && order[place - 1].first > squared; --place) order[place] = order[place - 1];
+      order[place] = {squared, first + i};
+    }
+    for (std::size_t i = 0; i < near && order[i].first < reach; ++i)
       visitNearestBelow(level - 1, order[i].second, p, reach, visit);
   }
 
