@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Meshes through `pdc mesh` and through `vdb_tool -mesh2ls -ls2mesh` of OpenVDB, on lattices of the same voxels: a table
-# of time, distances both ways, volume and soundness. usage: bench/mesh_input_eval.sh DATA (a folder of meshes); needs
-# build/release and vdb_tool.
+# of time, distances both ways, creases, volume and soundness. usage: bench/mesh_input_eval.sh DATA (a folder of
+# meshes); needs build/release with mesh_creases, and vdb_tool.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-data=$1 pdc=build/release/apps/pdc
+data=$1 pdc=build/release/apps/pdc creases=build/release/bench/mesh_creases
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 
@@ -33,20 +33,22 @@ row() {
   "$pdc" check "$4" --quiet >/dev/null 2>&1 && sound=yes
   "$pdc" info "$4" --reference "$5" --samples 200000 --quiet --json "$scratch/facts.json" >/dev/null
   "$pdc" info "$5" --quiet --json "$scratch/given.json" >/dev/null
-  python3 - "$1" "$2" "$3" "$sound" "$scratch/facts.json" "$scratch/given.json" <<'PYTHON'
+  local crease
+  read -r crease _ < <("$creases" "$5" "$4" "$2")
+  python3 - "$1" "$2" "$3" "$sound" "$crease" "$scratch/facts.json" "$scratch/given.json" <<'PYTHON'
 import json, sys
-name, voxel, seconds, sound = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]), sys.argv[4]
-facts, given = (json.load(open(path)) for path in sys.argv[5:])
+name, voxel, seconds, sound, crease = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]), *sys.argv[4:6]
+facts, given = (json.load(open(path)) for path in sys.argv[6:])
 there, back = facts["reference"]["to_reference"], facts["reference"]["from_reference"]
 closed = given["boundary_edges"] == given["non_manifold_edges"] == 0
 volume = f'{100 * (abs(facts["volume"]) / abs(given["volume"]) - 1):+.3f} %' if closed else "-"
 print(f'| {name} | {seconds:.2f} | {max(there["rms"], back["rms"]) / voxel:.4f} | '
-      f'{max(there["largest"], back["largest"]) / voxel:.2f} | {volume} | {sound} |')
+      f'{max(there["largest"], back["largest"]) / voxel:.2f} | {crease} | {volume} | {sound} |')
 PYTHON
 }
 
-echo "| mesh, voxels, by | seconds | RMS distance | largest distance | volume | sound |"
-echo "|---|---|---|---|---|---|"
+echo "| mesh, voxels, by | seconds | RMS distance | largest distance | creases | volume | sound |"
+echo "|---|---|---|---|---|---|---|"
 for name in fandisk_13k.off cgal_joint.off wingnut_cad.obj cad_angle_block.stl cad_featuretype.stl \
   cad_cycloidal_assembly.ply stanford_bun_zipper_res2.ply plane_holes.obj cgal_elephant-with-holes.off; do
   given=$data/$name
@@ -60,7 +62,7 @@ for name in fandisk_13k.off cgal_joint.off wingnut_cad.obj cad_angle_block.stl c
     voxel=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["mesh"]["voxel_size"])' "$scratch/report.json")
     row "$name, $voxels, pdc" "$voxel" "$took" "$scratch/pdc.ply" "$given"
     if ! vdb_tool -read "$peer" -mesh2ls "voxel=$voxel" -ls2mesh -write "$scratch/vdb.ply" >/dev/null 2>&1; then
-      echo "| $name, $voxels, vdb_tool | does not read it | | | | |"
+      echo "| $name, $voxels, vdb_tool | does not read it | | | | | |"
       continue
     fi
     took=$(seconds vdb_tool -read "$peer" -mesh2ls "voxel=$voxel" -ls2mesh -write "$scratch/vdb.ply")

@@ -73,7 +73,7 @@ ReadInput readInput(const MeshRequest& request, const Monitor& monitor) {
 
 ReadInput readAndShow(const MeshRequest& request) {
   const ExitOnInterrupt scope;
-  if (request.steps.empty() && request.kind() != InputKind::kVolume) {
+  if (!request.readsInSteps()) {
     const BusySign sign(!request.quiet, "reading " + request.input.filename().string());
     return readInput(request, {});
   }

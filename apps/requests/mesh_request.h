@@ -46,6 +46,10 @@ struct MeshRequest {
   [[nodiscard]] InputOptions inputOptions() const;
   /// Whether the input is a mesh that is contoured itself, not its level set.
   [[nodiscard]] bool ofMesh() const { return kind() == InputKind::kMesh && !steps.meshToLevelSet; }
+  /// Whether reading is long work that says how far it is: steps, a volume, or a mesh that is contoured to be moved.
+  [[nodiscard]] bool readsInSteps() const {
+    return !steps.empty() || kind() == InputKind::kVolume || shell.has_value();
+  }
   /// What it asks vertices to have besides attributes.
   [[nodiscard]] std::vector<std::string> ownProperties() const;
   /// How to contour it; `otherSigma`, or σn from the data, holds where the command line does not say sigma.
