@@ -30,9 +30,11 @@ void sample(const GridT& from, GridT& to, ResampleMethod method, const Monitor& 
   }
 }
 
-/// Whether inactive values say more than the background does, as those inside of a level set do.
+/// Whether there are active tiles, or inactive values that say more than the background does, as those inside of a level
+/// set do.
 template <typename GridT>
-bool hasInactiveValues(const GridT& grid) {
+bool hasMoreThanVoxels(const GridT& grid) {
+  if (grid.tree().hasActiveTiles()) return true;
   for (auto value = grid.cbeginValueOff(); value; ++value)
     if (*value != grid.background()) return true;
   return false;
@@ -45,8 +47,9 @@ typename GridT::Ptr interpolated(const GridT& grid, const openvdb::math::Transfo
   result->setTransform(target.copy());
   // OpenVDB rebuilds what is of class level set, and does not interpolate it.
   const auto source = openvdb::gridConstPtrCast<GridT>(grid.copyGridReplacingMetadata(openvdb::MetaMap()));
-  if (hasInactiveValues(grid)) {
-    // Where OpenVDB joins what threads made, it forgets inactive values. One thread has nothing to join.
+  if (hasMoreThanVoxels(grid)) {
+    // Where OpenVDB joins what threads made, it forgets inactive values, and takes those of tiles beyond their borders.
+    // One thread has nothing to join.
     detail::withThreads(1, [&] { sample(*source, *result, method, monitor); });
     openvdb::tools::prune(result->tree());
   } else {

@@ -110,7 +110,7 @@ TEST(GridTools, ResamplingAFogIsTheTools) {
     resampleGrid(dense, {.voxelSize = 0.07, .method = method});
     auto expected = FloatGrid::create(0);
     expected->setTransform(openvdb::math::Transform::createLinearTransform(0.07));
-    // By several threads the tool forgets some inactive values, others in each run.
+    // By several threads the tool takes values of tiles beyond their borders.
     detail::withThreads(1, [&] {
       if (method == ResampleMethod::kQuadratic) {
         openvdb::tools::resampleToMatch<openvdb::tools::QuadraticSampler>(*fog(), *expected);
