@@ -30,8 +30,8 @@ void sample(const GridT& from, GridT& to, ResampleMethod method, const Monitor& 
   }
 }
 
-/// Whether there are active tiles, or inactive values that say more than the background does, as those inside of a level
-/// set do.
+/// Whether there are active tiles, or inactive values that say more than the background does, as those inside of a
+/// level set do.
 template <typename GridT>
 bool hasMoreThanVoxels(const GridT& grid) {
   if (grid.tree().hasActiveTiles()) return true;
