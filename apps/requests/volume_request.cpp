@@ -40,6 +40,9 @@ void addVolumeOptions(CLI::App& command, VolumeReadOptions& volume, const std::s
       ->type_name("XxYxZ:u16be[:SKIP]")
       ->group(group);
   command.add_option("--array", volume.array, "Array to take, if an .npz has several")->type_name("NAME")->group(group);
+  command.add_option("--series", volume.series, "Series to take, if DICOM files have several")
+      ->type_name("UID|N")
+      ->group(group);
   addIndex(command, "--volume-index", volume.volumeIndex, "Volume to take, if there are several in time (0)")
       ->group(group);
   addIndex(command, "--channel", volume.channel, "Value to take, if points have several")->group(group);
@@ -64,6 +67,7 @@ void refuseVolumeOptions(const VolumeReadOptions& volume) {
   };
   refuse(volume.raw.has_value(), "--raw");
   refuse(volume.array.has_value(), "--array");
+  refuse(volume.series.has_value(), "--series");
   refuse(volume.volumeIndex.has_value(), "--volume-index");
   refuse(volume.channel.has_value(), "--channel");
   refuse(volume.spacing.has_value(), "--spacing");

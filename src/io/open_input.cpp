@@ -30,6 +30,7 @@ void refuseVolumeOptions(const fs::path& path, const InputOptions& options) {
   const VolumeReadOptions& volume = options.volume;
   refuseOther(options.isoFromOtsu, path, "Otsu's threshold", volumes);
   refuseOther(volume.array.has_value(), path, "an array's name", volumes);
+  refuseOther(volume.series.has_value(), path, "a series", volumes);
   refuseOther(volume.volumeIndex.has_value(), path, "the index of a volume", volumes);
   refuseOther(volume.channel.has_value(), path, "a channel", volumes);
   refuseOther(volume.spacing.has_value(), path, "a spacing", volumes);

@@ -10,6 +10,7 @@
 
 #include "io/file/file_error.h"
 #include "io/file/suffix.h"
+#include "io/volume/dicom_series.h"
 #include "io/volume/tiff_stack.h"
 #include "io/volume/volume_header.h"
 #include "parallel/machine_memory.h"
@@ -111,6 +112,7 @@ bool isTiff(const fs::path& path) {
 
 detail::VolumeHeader readHeader(const fs::path& path, const VolumeReadOptions& options, const Monitor& monitor) {
   if (!options.raw && isTiff(path)) return detail::readTiffStack(path, options, monitor);
+  if (!options.raw && detail::isDicom(path)) return detail::readDicomSeries(path, options, monitor);
   const HeaderReader reader = options.raw ? readRaw : readerOf(path);
   if (reader == nullptr) throw Error("not the name of a volume");
   return reader(path, options);
@@ -147,7 +149,7 @@ DenseVolume read(const fs::path& path, const VolumeReadOptions& options, const M
 
 }  // namespace
 
-bool isVolumeFile(const fs::path& path) { return readerOf(path) != nullptr || isTiff(path); }
+bool isVolumeFile(const fs::path& path) { return readerOf(path) != nullptr || isTiff(path) || detail::isDicom(path); }
 
 DenseVolume readVolume(const fs::path& path, const VolumeReadOptions& options, const Monitor& monitor) {
   try {

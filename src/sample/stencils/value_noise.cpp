@@ -76,8 +76,8 @@ void ValueNoise::fill(const Coord& block, const EdgeIndex& edges, const HermiteB
   forEachLow(edges, [&](int i, int axis, int low) {
     if (noise.sigma[i] == 0) return;
     const float ratio = noise.sigma[i] / slopeAt(stencil, low, axis, hermite.t[i]);
-    const float sigma = stencilNoise(hermite.t[i]) * ratio;
-    noise.sigma[i] = sigma < kMostSigma ? sigma : kMostSigma;  // NaN beside values that are clamped or not finite.
+    const float spread = stencilNoise(hermite.t[i]) * ratio;
+    noise.sigma[i] = spread < kMostSigma ? spread : kMostSigma;  // NaN beside values that are clamped or not finite.
   });
 }
 

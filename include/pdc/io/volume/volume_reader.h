@@ -37,6 +37,8 @@ enum class WorldFrame {
 struct VolumeReadOptions {
   std::optional<RawVolume> raw{};      ///< The file has no header, whatever its suffix.
   std::optional<std::string> array{};  ///< Of an .npz with several arrays of three dimensions.
+  /// Of DICOM files of several series: its SeriesInstanceUID, or its place in the order of their numbers, from 1.
+  std::optional<std::string> series{};
   /// Which volume of a file that has one after the other, from 0. Empty: the first, with a warning.
   std::optional<std::int64_t> volumeIndex{};
   std::optional<std::int64_t> channel{};           ///< Which value of points that have several, from 0; needed there.
@@ -51,7 +53,7 @@ struct DenseVolume {
   std::shared_ptr<const void> owner;  ///< Keeps what the view looks at alive.
   Mat3d linear{};                     ///< Regular and finite; mirrored, rotated and sheared as the file says.
   Vec3d translation{};
-  std::string format;        ///< "NIfTI-1", "NRRD", "MetaImage", "npy", "npz", "raw", "Inrimage" or "TIFF".
+  std::string format;        ///< "NIfTI-1", "NRRD", "MetaImage", "npy", "npz", "raw", "Inrimage", "TIFF" or "DICOM".
   std::string encoding;      ///< "raw", "deflate", "text", or "decoded" by a library.
   std::string space;         ///< "RAS", "LPS" or what else the file calls its frame; empty where it does not say.
   std::string unit;          ///< "mm" and so on; empty where the file does not say.
@@ -61,8 +63,8 @@ struct DenseVolume {
 };
 
 /// Whether the name is that of a volume: .nii, .hdr, .img, .nrrd, .nhdr, .mha, .mhd, .npy, .npz, .raw, .inr, .tif,
-/// .tiff, in upper or lower case; .nii, .raw and .inr also with .gz. The file need not exist. A folder is one if .tif
-/// files are in it.
+/// .tiff, .dcm, in upper or lower case; .nii, .raw and .inr also with .gz. The file need not exist. A folder is one if
+/// .tif files are in it, or files that begin as DICOM does.
 [[nodiscard]] bool isVolumeFile(const std::filesystem::path& path);
 
 /// Reads a dense volume by its suffix. Values that are not compressed stay in the file, which is mapped into memory and
@@ -74,7 +76,11 @@ struct DenseVolume {
 /// spacings and axis mins. MetaImage: TransformMatrix, whose rows are the directions of the axes, spacing and offset;
 /// frame LPS, as ITK has it. `.npy`, `.npz`: indexed [x, y, z], spacing 1. Inrimage: VX, VY, VZ. TIFF, in builds with
 /// libtiff: the pages of a file, or the files of a folder in the order of the numbers in their names; spacing as ImageJ
-/// writes it. libtiff runs in a child process, which a damaged file may crash.
+/// writes it. DICOM, in builds with GDCM: a file, of one or several frames, or the files of a folder; slices in the
+/// order of their positions along the normal of their planes, steps from slice to slice by those positions too, with a
+/// warning where they are not equal; several volumes in the same places are chosen from; values scaled by slope and
+/// intercept, which make them single-precision where they are not the same for all slices; frame LPS. libtiff and GDCM
+/// run in child processes, which a damaged file may crash.
 ///
 /// \throws Error for a file that cannot be read, that is malformed or shorter than its header says, for values that are
 /// no real numbers, and for options that do not fit; Cancelled.
