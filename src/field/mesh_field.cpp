@@ -154,7 +154,7 @@ class MeshField final : public Field {
   }
 
   [[nodiscard]] Level levelAt(const Vec3d& p, double winding) const {
-    const Vec3d change = mWinding.caps().gradient(p, kStep * mSize);
+    const Vec3d change = mWinding.caps().gradient(p);
     const double slope = length(change);
     if (!(slope > 0)) return {std::numeric_limits<double>::infinity(), {}};
     return {std::abs(std::abs(winding) - 0.5) / slope, change * ((winding > 0 ? 1 : -1) / slope)};
@@ -189,7 +189,7 @@ class MeshField final : public Field {
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   static constexpr double kRounding = 1e-14;
-  static constexpr double kStep = 1e-4, kOnSurface = 1e-12, kNearer = 0.999;
+  static constexpr double kOnSurface = 1e-12, kNearer = 0.999;
 
   detail::ClosedSurface mSurface;
   Mesh mOwn;

@@ -51,6 +51,32 @@ std::vector<Coord> neighboursWithSurface(const std::vector<Coord>& blocks, const
   return found;
 }
 
+/// Where f passes 0 between 0 and 1, to a thousandth: regula falsi, of which an end that stays counts half (Dowell &
+/// Jarratt 1971).
+template <typename F>
+double rootOf(const F& f, double atFrom, double atTo) {
+  constexpr double kExact = 1e-3;
+  constexpr int kMostSteps = 12;
+  double from = 0, to = 1, t = 0;
+  int stayed = 0;
+  for (int i = 0; i < kMostSteps && to - from > kExact; ++i) {
+    const double last = t;
+    t = std::clamp((from * atTo - to * atFrom) / (atTo - atFrom), from, to);
+    if (i > 0 && std::abs(t - last) < kExact / 2) break;
+    const double here = f(t);
+    if ((here > 0) == (atFrom > 0)) {
+      from = t, atFrom = here;
+      if (stayed > 0) atTo /= 2;
+      stayed = 1;
+    } else {
+      to = t, atTo = here;
+      if (stayed < 0) atFrom /= 2;
+      stayed = -1;
+    }
+  }
+  return t;
+}
+
 }  // namespace
 
 MeshSolid::MeshSolid(const ClosedSurface& surface, const MeshLattice& lattice, const Monitor& monitor)
@@ -221,14 +247,9 @@ MeshSolid::Crossing MeshSolid::holeCrossing(Axis axis, const Coord& point) const
     const double fraction = -mCaps.at(place(t)), expected = low + (high - low) * t;
     return fraction + std::round(expected - fraction);
   };
-  double from = 0, to = 1;
-  for (int i = 0; i < 10; ++i) {
-    const double middle = (from + to) / 2;
-    (WindingNumber::isInside(winding(middle)) == WindingNumber::isInside(low) ? from : to) = middle;
-  }
-  const double t = (from + to) / 2, side = winding(t) > 0 ? 1 : -1;
-  constexpr double kStep = 1e-2;  // voxels
-  const Vec3d outwards = mCaps.gradient(place(t), kStep * mLattice.voxelSize) * side;
+  const double t =
+      rootOf([&](double at) { return std::abs(winding(at)) - 0.5; }, std::abs(low) - 0.5, std::abs(high) - 0.5);
+  const Vec3d outwards = mCaps.gradient(place(t)) * (winding(t) > 0 ? 1 : -1);
   const double l = length(outwards);
   return {static_cast<float>(t), l > 0 ? vecCast<float>(outwards * (1 / l)) : Vec3f{}};
 }
