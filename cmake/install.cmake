@@ -17,4 +17,7 @@ install(
 if(PDC_BUILD_APPS)
   install(TARGETS pdc_program)
 endif()
+if(TARGET pdc_dicom)
+  install(TARGETS pdc_dicom LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pdc)
+endif()
 install(FILES LICENSE TYPE DOC)

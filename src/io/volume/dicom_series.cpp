@@ -14,7 +14,7 @@
 #include "io/file/file_error.h"
 #include "io/file/suffix.h"
 #include "io/volume/child_stream.h"
-#include "io/volume/dicom_slices.h"
+#include "io/volume/dicom_module.h"
 #include "io/volume/header_text.h"
 #include "pdc/error.h"
 #include "pdc/mesh/buffer.h"
@@ -45,7 +45,8 @@ std::vector<fs::path> filesOf(const fs::path& path) {
 
 Slices readSlices(const std::vector<fs::path>& files, const Monitor& monitor) {
   monitor.throwIfStopped();
-  ChildStream stream("reading DICOM", [&files](ChildOutput& out) { writeDicomSlices(files, out); });
+  const DicomModule& dicom = dicomModule();
+  ChildStream stream("reading DICOM", [&](ChildOutput& out) { dicom.writeSlices(files, out); });
   std::int64_t count = 0;
   stream.read({reinterpret_cast<char*>(&count), sizeof(count)});
   Slices slices(static_cast<std::size_t>(count));
@@ -262,7 +263,7 @@ void scale(std::span<const char> stored, const DicomSlice& slice, std::span<char
 /// Reads the values of all slices; as single-precision numbers where each has a scale of its own.
 LoadedBytes readValues(const std::vector<fs::path>& files, const Slices& slices, bool alike, std::uint64_t bytes,
                        const Monitor& monitor) {
-  ChildStream stream("reading DICOM", [&](ChildOutput& out) { writeDicomValues(files, slices, out); });
+  ChildStream stream("reading DICOM", [&](ChildOutput& out) { dicomModule().writeValues(files, slices, out); });
   auto buffer = std::make_shared<Buffer<char>>();
   const DicomSlice& first = slices.front();
   Buffer<char> stored(static_cast<std::size_t>(first.columns * first.rows * first.bits / 8));

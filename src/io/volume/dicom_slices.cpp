@@ -1,9 +1,3 @@
-#include "io/volume/dicom_slices.h"
-
-#include "pdc/error.h"
-
-#ifdef PDC_WITH_GDCM
-
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
 #include <gdcmReader.h>
@@ -22,7 +16,9 @@
 #include <string_view>
 
 #include "io/file/file_error.h"
+#include "io/volume/dicom_module.h"
 #include "io/volume/header_text.h"
+#include "pdc/error.h"
 #include "pdc/mesh/buffer.h"
 
 namespace pdc::detail {
@@ -230,8 +226,6 @@ void decode(const fs::path& path, const DicomSlice& slice, Buffer<char>& values)
   spreadSigns(values, slice);
 }
 
-}  // namespace
-
 void writeDicomSlices(const std::vector<fs::path>& files, ChildOutput& out) {
   beQuiet();
   std::uintmax_t largest = 0;
@@ -272,21 +266,7 @@ void writeDicomValues(const std::vector<fs::path>& files, std::span<const DicomS
   }
 }
 
+}  // namespace
 }  // namespace pdc::detail
 
-#else
-
-namespace pdc::detail {
-
-void writeDicomSlices(const std::vector<std::filesystem::path>& /*files*/, ChildOutput& /*out*/) {
-  throw Error("DICOM is not read: this pdc was built without GDCM");
-}
-
-void writeDicomValues(const std::vector<std::filesystem::path>& files, std::span<const DicomSlice> /*slices*/,
-                      ChildOutput& out) {
-  writeDicomSlices(files, out);
-}
-
-}  // namespace pdc::detail
-
-#endif
+const pdc::detail::DicomModule pdcDicomModule{&pdc::detail::writeDicomSlices, &pdc::detail::writeDicomValues};

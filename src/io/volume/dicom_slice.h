@@ -2,11 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <span>
-#include <vector>
-
-#include "io/volume/child_stream.h"
 
 namespace pdc::detail {
 
@@ -23,15 +18,5 @@ struct DicomSlice {
   double between = 0, thickness = 0;    ///< SpacingBetweenSlices, SliceThickness.
   double slope = 1, intercept = 0;
 };
-
-/// Writes the number of slices as an std::int64_t, then a DicomSlice for each one, file by file. Files that begin as
-/// DICOM but hold no pictures are passed over. \throws Error for damaged files, for more values than a file can hold,
-/// for colours, and where this build has no GDCM.
-void writeDicomSlices(const std::vector<std::filesystem::path>& files, ChildOutput& out);
-
-/// Writes the values of slices, rows from the top, in the machine's byte order and with the bits that are not stored
-/// set to the sign. \param slices as writeDicomSlices() wrote them, in the order to write. \throws Error.
-void writeDicomValues(const std::vector<std::filesystem::path>& files, std::span<const DicomSlice> slices,
-                      ChildOutput& out);
 
 }  // namespace pdc::detail
