@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 using gdcm::DataSet;
 using gdcm::Tag;
+using gdcm::TransferSyntax;
 
 const Tag kPixelData(0x7fe0, 0x0010);
 constexpr double kUnsaid = std::numeric_limits<double>::quiet_NaN();
@@ -59,8 +60,7 @@ std::string_view bytesOf(const DataSet& data, const Tag& tag) {
 }
 
 /// Numbers in text with backslashes between them; those that are not said stay as they are.
-template <std::size_t N>
-void readReals(const DataSet& data, const Tag& tag, std::array<double, N>& to) {
+void readReals(const DataSet& data, const Tag& tag, std::span<double> to) {
   std::string_view text = bytesOf(data, tag);
   if (text.empty()) return;
   for (double& number : to) {
@@ -73,9 +73,9 @@ void readReals(const DataSet& data, const Tag& tag, std::array<double, N>& to) {
 }
 
 double realOf(const DataSet& data, const Tag& tag, double otherwise) {
-  std::array<double, 1> number{otherwise};
-  readReals(data, tag, number);
-  return number[0];
+  double number = otherwise;
+  readReals(data, tag, {&number, 1});
+  return number;
 }
 
 std::int64_t countOf(const DataSet& data, const Tag& tag, std::int64_t otherwise) {
@@ -124,6 +124,20 @@ void readGroups(const std::optional<DataSet>& groups, DicomSlice& slice) {
     if (const std::optional<DataSet> item = itemOf(*groups, tag, 0)) readPlace(*item, slice);
 }
 
+/// Puts the frames of a dose where its GridFrameOffsetVector says, along their normal.
+void placeFrames(const DataSet& data, std::span<DicomSlice> frames) {
+  std::vector<double> offsets(frames.size(), kUnsaid);
+  readReals(data, Tag(0x3004, 0x000c), offsets);
+  if (!std::all_of(offsets.begin(), offsets.end(), [](double o) { return std::isfinite(o); })) return;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    auto& [x, y, z] = frames[i].position;
+    const auto& o = frames[i].orientation;
+    const Vec3d normal = cross(Vec3d{o[0], o[1], o[2]}, Vec3d{o[3], o[4], o[5]});
+    const Vec3d place = Vec3d{x, y, z} + normal * (offsets[i] - offsets[0]);
+    frames[i].position = {place.x, place.y, place.z};
+  }
+}
+
 void checkPixels(const DataSet& data, const DicomSlice& slice, bool packed, std::uint64_t fileBytes) {
   const std::int32_t samples = shortOf(data, Tag(0x0028, 0x0002), 1);
   if (samples != 1 || bytesOf(data, Tag(0x0028, 0x0004)).starts_with("PALETTE")) throw Error("colours are not read");
@@ -152,8 +166,8 @@ void addSlices(const gdcm::File& file, std::uint64_t fileBytes, DicomSlice slice
   slice.bits = shortOf(data, Tag(0x0028, 0x0100), 0);
   slice.storedBits = shortOf(data, Tag(0x0028, 0x0101), slice.bits);
   slice.isSigned = shortOf(data, Tag(0x0028, 0x0103), 0) == 1 ? 1 : 0;
-  const gdcm::TransferSyntax& syntax = file.GetHeader().GetDataSetTransferSyntax();
-  checkPixels(data, slice, syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian,
+  const TransferSyntax& syntax = file.GetHeader().GetDataSetTransferSyntax();
+  checkPixels(data, slice, syntax.IsEncapsulated() || syntax == TransferSyntax::DeflatedExplicitVRLittleEndian,
               fileBytes);
   copyText(data, Tag(0x0020, 0x000e), slice.series);
   copyText(data, Tag(0x0008, 0x103e), slice.description);
@@ -164,6 +178,7 @@ void addSlices(const gdcm::File& file, std::uint64_t fileBytes, DicomSlice slice
   slice.spacing.fill(kUnsaid);
   slice.between = slice.thickness = kUnsaid;
   readPlace(data, slice);
+  slice.slope = realOf(data, Tag(0x3004, 0x000e), slice.slope);  // DoseGridScaling.
   readGroups(itemOf(data, Tag(0x5200, 0x9229), 0), slice);
   for (slice.frame = 0; slice.frame < slice.frames; ++slice.frame) {
     DicomSlice one = slice;
@@ -171,6 +186,7 @@ void addSlices(const gdcm::File& file, std::uint64_t fileBytes, DicomSlice slice
     if (!std::isfinite(one.slope) || one.slope == 0 || !std::isfinite(one.intercept)) one.slope = 1, one.intercept = 0;
     slices.push_back(one);
   }
+  placeFrames(data, std::span(slices).last(static_cast<std::size_t>(slice.frames)));
 }
 
 template <typename Number>
@@ -194,6 +210,11 @@ void spreadSigns(std::span<char> values, const DicomSlice& slice) {
   if (slice.bits == 32) spreadSign<std::int32_t>(values, slice);
 }
 
+void swapWords(std::span<char> values) {
+  for (std::size_t at = 0; at + 4 <= values.size(); at += 4)
+    std::swap_ranges(&values[at], &values[at] + 2, &values[at] + 2);
+}
+
 /// Whether a file ends within its values, which GDCM would make zeros. \param bytes how many there are, not compressed.
 bool endsEarly(const fs::path& path, std::size_t bytes) {
   std::ifstream file(path, std::ios::binary);
@@ -215,15 +236,30 @@ bool endsEarly(const fs::path& path, std::size_t bytes) {
 void decode(const fs::path& path, const DicomSlice& slice, Buffer<char>& values) {
   gdcm::ImageReader reader;
   reader.SetFileName(path.c_str());
-  if (!reader.Read()) throw fileError(path.filename(), "its values cannot be decoded");
+  if (!reader.Read()) throw Error("its values cannot be decoded");
   const gdcm::Image& image = reader.GetImage();
   const auto bytes = static_cast<std::size_t>(slice.columns * slice.rows * slice.frames * (slice.bits / 8));
   const bool fits = static_cast<std::int64_t>(image.GetColumns()) == slice.columns &&
                     static_cast<std::int64_t>(image.GetRows()) == slice.rows && image.GetBufferLength() == bytes;
   values.resize(bytes);
-  if (endsEarly(path, bytes)) throw fileError(path.filename(), "ends early");
-  if (!fits || !image.GetBuffer(values.data())) throw fileError(path.filename(), "its values cannot be decoded");
+  if (endsEarly(path, bytes)) throw Error("ends early");
+  if (!fits || !image.GetBuffer(values.data())) throw Error("its values cannot be decoded");
+  // GDCM turns the bytes of words of 16 bits, also where values have 32.
+  if (slice.bits == 32 &&
+      reader.GetFile().GetHeader().GetDataSetTransferSyntax() == TransferSyntax::ExplicitVRBigEndian)
+    swapWords(values);
   spreadSigns(values, slice);
+}
+
+/// Calls f(), and says which of several files it failed on.
+template <typename F>
+void naming(const std::vector<fs::path>& files, std::size_t i, const F& f) {
+  if (files.size() == 1) return f();
+  try {
+    f();
+  } catch (const Error& error) {
+    throw fileError(files[i].filename(), error.what());
+  }
 }
 
 void writeDicomSlices(const std::vector<fs::path>& files, ChildOutput& out) {
@@ -232,18 +268,15 @@ void writeDicomSlices(const std::vector<fs::path>& files, ChildOutput& out) {
   for (const fs::path& file : files) largest = std::max(largest, fs::file_size(file));
   limitMemory(largest);
   std::vector<DicomSlice> slices;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    gdcm::Reader reader;
-    reader.SetFileName(files[i].c_str());
-    if (!reader.ReadUpToTag(kPixelData)) throw fileError(files[i].filename(), "not DICOM, or damaged");
-    DicomSlice slice;
-    slice.file = static_cast<std::int64_t>(i);
-    try {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    naming(files, i, [&] {
+      gdcm::Reader reader;
+      reader.SetFileName(files[i].c_str());
+      if (!reader.ReadUpToTag(kPixelData)) throw Error("not DICOM, or damaged");
+      DicomSlice slice;
+      slice.file = static_cast<std::int64_t>(i);
       addSlices(reader.GetFile(), fs::file_size(files[i]), slice, slices);
-    } catch (const Error& error) {
-      throw fileError(files[i].filename(), error.what());
-    }
-  }
+    });
   const auto count = static_cast<std::int64_t>(slices.size());
   out.write(&count, sizeof(count));
   out.write(slices.data(), slices.size() * sizeof(DicomSlice));
@@ -259,7 +292,8 @@ void writeDicomValues(const std::vector<fs::path>& files, std::span<const DicomS
   limitMemory(most);
   Buffer<char> values;
   for (const DicomSlice& slice : slices) {
-    if (slice.file != decoded) decode(files[static_cast<std::size_t>(slice.file)], slice, values);
+    const auto file = static_cast<std::size_t>(slice.file);
+    if (slice.file != decoded) naming(files, file, [&] { decode(files[file], slice, values); });
     decoded = slice.file;
     const std::size_t bytes = values.size() / static_cast<std::size_t>(slice.frames);
     out.write(values.data() + static_cast<std::size_t>(slice.frame) * bytes, bytes);
