@@ -264,15 +264,14 @@ void scale(std::span<const char> stored, const DicomSlice& slice, std::span<char
 LoadedBytes readValues(const std::vector<fs::path>& files, const Slices& slices, bool alike, std::uint64_t bytes,
                        const Monitor& monitor) {
   ChildStream stream("reading DICOM", [&](ChildOutput& out) { dicomModule().writeValues(files, slices, out); });
-  auto buffer = std::make_shared<Buffer<char>>();
+  auto buffer = std::make_shared<Buffer<char>>(bytes);
   const DicomSlice& first = slices.front();
   Buffer<char> stored(static_cast<std::size_t>(first.columns * first.rows * first.bits / 8));
   const std::uint64_t step = bytes / slices.size();
   for (std::size_t i = 0; i < slices.size(); ++i) {
     monitor.throwIfStopped();
     stream.read(stored);
-    buffer->resize((i + 1) * step);
-    const std::span<char> to = std::span(*buffer).subspan(i * step);
+    const std::span<char> to = std::span(*buffer).subspan(i * step, step);
     if (alike)
       std::copy(stored.begin(), stored.end(), to.begin());
     else

@@ -176,13 +176,11 @@ VolumeHeader readTiffStack(const fs::path& path, const VolumeReadOptions& option
     return header;
   }
   checkHolds(files, header.data.bytes);
-  auto buffer = std::make_shared<Buffer<char>>();
+  auto buffer = std::make_shared<Buffer<char>>(header.data.bytes);
   const std::uint64_t page = header.data.bytes / static_cast<std::uint64_t>(facts.pages);
   for (std::int64_t i = 0; i < facts.pages; ++i) {
     monitor.throwIfStopped();
-    const std::size_t before = buffer->size();
-    buffer->resize(before + page);
-    stream.read(std::span(*buffer).subspan(before));
+    stream.read(std::span(*buffer).subspan(static_cast<std::uint64_t>(i) * page, page));
     if (monitor.progress) monitor.progress("reading", static_cast<double>(i + 1) / static_cast<double>(facts.pages));
   }
   header.loaded = {reinterpret_cast<const std::byte*>(buffer->data()), buffer};
