@@ -113,7 +113,7 @@ Mesh clusterWithBar(const ClusterRequest& request, ClusterRun& run) {
 void addClusterOptions(CLI::App& command, ClusterRequest& request) {
   ClusterOptions& options = request.options;
   command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, kWrittenMeshes)->required()->type_name("");
   const auto clustering = "Clustering";
   const auto notNegative = [](double v) { return v >= 0 && std::isfinite(v); };
   addReal(

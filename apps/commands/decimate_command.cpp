@@ -190,7 +190,7 @@ void addTargetOptions(CLI::App& command, DecimateRequest& request) {
 void addDecimateOptions(CLI::App& command, DecimateRequest& request) {
   DecimateOptions& options = request.options;
   command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, kWrittenMeshes)->required()->type_name("");
   addTargetOptions(command, request);
   addReal(
       command, "--weld", options.weld, [](double v) { return v >= 0 && std::isfinite(v); }, "a finite number >= 0",

@@ -12,7 +12,7 @@
 #include "files/json_file.h"
 #include "files/mesh_attributes.h"
 #include "files/mesh_file.h"
-#include "io/file/suffix.h"
+#include "io/mesh/mesh_format.h"
 #include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/extract/contour_forecast.h"
@@ -41,7 +41,7 @@ void checkSurface(const MeshRequest& request, const Input& input, const Mesh& me
 
 /// Bytes of a mesh's file, roughly.
 double fileSize(const MeshRequest& request, const ContourForecast& forecast) {
-  const bool text = request.ascii || detail::suffixOf(request.output) == ".obj";
+  const bool text = request.ascii || detail::outputFormat(request.output).isText();
   constexpr double kBinary = 29, kText = 60;  // for a vertex and a quad, as closed meshes have
   return (text ? kText : kBinary) * forecast.vertices;
 }
@@ -196,14 +196,18 @@ void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun&
   run.origin = mesh.origin;
   run.properties = propertiesJson(mesh.properties);
   const std::string lost = lostProperties(mesh, request.output);
-  if (!lost.empty()) warn(run, fmt::format("{}: only .ply files hold {}", request.output.string(), lost));
+  if (!lost.empty())
+    warn(run, fmt::format("{}: only {} files hold {}", request.output.string(), detail::kFormatsWithProperties, lost));
 
+  const std::string unit = request.unit.empty() && run.volume ? run.volume->unit : request.unit;
   detail::Stopwatch stopwatch;
   run.bytesWritten = writeMeshFile(mesh, request.output,
                                    {.ascii = request.ascii,
                                     .doublePrecision = request.doublePrecision,
                                     .space = run.volume ? run.volume->space : "",
-                                    .unit = run.volume ? run.volume->unit : ""},
+                                    .unit = unit,
+                                    .source = request.input.filename().string(),
+                                    .settings = request.settings},
                                    request.quiet);
   run.secondsWrite = stopwatch.lap();
   run.secondsTotal = run.secondsRead + total.lap();

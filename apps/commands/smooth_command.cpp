@@ -108,7 +108,7 @@ Mesh readTriangles(const SmoothRequest& request, SmoothRun& run) {
 void addSmoothOptions(CLI::App& command, SmoothRequest& request) {
   SmoothOptions& options = request.options;
   command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, kWrittenMeshes)->required()->type_name("");
   const auto smoothing = "Smoothing";
   addInteger(command, "--iterations", request.iterations, 0, 1000,
              fmt::format("How often quadrics are averaged with their neighbours ({})", options.iterations))

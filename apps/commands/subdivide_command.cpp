@@ -9,6 +9,7 @@
 
 #include "files/json_file.h"
 #include "files/mesh_file.h"
+#include "io/mesh/mesh_format.h"
 #include "parallel/stopwatch.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
@@ -115,8 +116,9 @@ std::vector<std::string> warningsOf(const SubdivideRequest& request, const Subdi
                     "takes them as they are",
                     run.report.triangulatedFaces));
   const bool properties = request.options.curvature || request.options.keepCovariances;
-  if (properties && request.output.extension() != ".ply")
-    warnings.push_back("only .ply files hold curvature and covariances, which are left out");
+  if (properties && !detail::outputFormat(request.output).holdsProperties())
+    warnings.push_back(fmt::format("only {} files hold curvature and covariances, which are left out",
+                                   detail::kFormatsWithProperties));
   return warnings;
 }
 
@@ -166,7 +168,7 @@ void addCovarianceOptions(CLI::App& command, SubdivideRequest& request) {
 void addSubdivideOptions(CLI::App& command, SubdivideRequest& request) {
   SubdivideOptions& options = request.options;
   command.add_option("MESH", request.input, ".ply, .obj, .off or .stl")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, kWrittenMeshes)->required()->type_name("");
   const auto scheme = "Scheme";
   addInteger(command, "--levels", request.levels, 1, 31, "How many times faces are split (2)")
       ->type_name("N")

@@ -30,11 +30,11 @@ void addAttributes(const Input& input, Mesh& mesh) {
 }
 
 std::string lostProperties(const Mesh& mesh, const std::filesystem::path& path) {
-  const detail::MeshFormat format = detail::meshFormat(path);
-  const bool colours = format == detail::MeshFormat::kObj && detail::hasColours(mesh);
+  const detail::OutputFormat format = detail::outputFormat(path);
+  const bool colours = format.kind == detail::OutputKind::kObj && detail::hasColours(mesh);
   std::string lost;
   for (const VertexProperty& property : mesh.properties) {
-    if (format == detail::MeshFormat::kPly || (colours && detail::isColour(property.name))) continue;
+    if (format.holdsProperties() || (colours && detail::isColour(property.name))) continue;
     lost += (lost.empty() ? "" : ", ") + property.name;
   }
   return lost;

@@ -9,6 +9,9 @@
 
 namespace pdc {
 
+/// What meshes are written as, for help texts.
+inline constexpr const char* kWrittenMeshes = ".ply, .obj, .off, .stl (also with .gz), .glb, .3mf or .vtp";
+
 /// A mesh from a file, and what the reader warned of.
 struct MeshFile {
   Mesh mesh;

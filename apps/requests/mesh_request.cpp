@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "files/json_file.h"
+#include "files/mesh_file.h"
 #include "io/mesh/mesh_format.h"
 #include "pdc/error.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "requests/volume_request.h"
 #include "terminal/choice_option.h"
 #include "terminal/numbers.h"
+#include "terminal/settings.h"
 
 namespace pdc {
 namespace {
@@ -56,9 +58,10 @@ void addSurfaceOptions(CLI::App& command, MeshRequest& request) {
   command.add_flag("--normals", request.normals, "A normal per vertex")->group(group);
   command
       .add_flag("--confidence", request.confidence,
-                "A confidence from 0 to 1 per vertex, and the standard\ndeviation along its normal, sigma, in a .ply")
+                "A confidence from 0 to 1 per vertex, and the standard\ndeviation along its normal, sigma, in a .ply, "
+                ".vtp or .glb")
       ->group(group);
-  command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner), in a .ply")->group(group);
+  command.add_flag("--rank", request.rank, "Per vertex 1 (flat), 2 (edge) or 3 (corner)")->group(group);
   command.add_flag("--require-surface", request.requireSurface, "An empty mesh is an error")->group(group);
 }
 
@@ -81,7 +84,7 @@ void addPlaceOptions(CLI::App& command, MeshRequest& request, const std::string&
       ->group(group);
   command
       .add_flag("--double", request.doublePrecision,
-                "Coordinates in double precision, in a .ply or .obj: keeps\nwhat lies far from the origin")
+                "Coordinates in double precision, in a .ply, .obj or .vtp: keeps\nwhat lies far from the origin")
       ->group(group);
 }
 
@@ -143,6 +146,15 @@ void refuseValueOptions(const MeshRequest& request) {
   refuseOther(request.hermite.has_value(), "--hermite", values);
   refuseOther(request.gridClass.has_value(), "--class", values);
   refuseOther(request.inside.has_value(), "--inside", values);
+}
+
+void checkOutputHolds(const MeshRequest& request) {
+  const detail::OutputFormat format = detail::outputFormat(request.output);
+  const std::string withProperties = fmt::format("{} outputs", detail::kFormatsWithProperties);
+  refuseOther(request.confidence && !format.holdsProperties(), "--confidence", withProperties.c_str());
+  refuseOther(request.rank && !format.holdsProperties(), "--rank", withProperties.c_str());
+  refuseOther(request.doublePrecision && !format.holdsDoubles(), "--double",
+              fmt::format("{} outputs", detail::kFormatsWithDoubles).c_str());
 }
 
 }  // namespace
@@ -269,9 +281,10 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
     }
   };
   command
-      .add_option_function<std::string>("--attribute", take,
-                                        "Grids of the same file whose values the vertices get, in a .ply\n"
-                                        "(of Cd, colours, in an .obj, too); all: all others")
+      .add_option_function<std::string>(
+          "--attribute", take,
+          "Grids of the same file whose values the vertices get, in a .ply, .vtp or .glb\n"
+          "(of Cd, colours, in an .obj, too); all: all others")
       ->type_name("NAME,...|all")
       ->group(group);
 }
@@ -284,7 +297,7 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
           ".stl")
       ->required()
       ->type_name("");
-  command.add_option("OUTPUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUTPUT", request.output, kWrittenMeshes)->required()->type_name("");
   command
       .add_option_function<std::string>(
           "--frames", [&request](const std::string& text) { request.frames = parseFrames(text); },
@@ -295,6 +308,13 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
   addGridSteps(command, request.steps, "For .vdb inputs and volumes, before all else, in this order");
   const auto group = "Output";
   command.add_flag("--ascii", request.ascii, ".ply and .stl as text")->group(group);
+  command
+      .add_option("--unit", request.unit,
+                  "What coordinates are in, in headers that hold it (the input's;\nmm in a .3mf)")
+      ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
+      ->type_name("UNIT")
+      ->group(group);
+  command.parse_complete_callback([&command, &request] { request.settings = settingsText(command); });
   addPlaceOptions(command, request, group);
   command.add_option("--json", request.json, "Report for programs; - is standard output")
       ->type_name("FILE")
@@ -353,12 +373,8 @@ void checkMeshRequest(const MeshRequest& request) {
           "'{}': not a kind of input; the suffix must be .vdb, .yaml, .yml, .ply, .obj, .off, .stl or a volume's",
           request.input.string()));
   }
-  const auto otherThanPly = [&] { return detail::meshFormat(request.output) != detail::MeshFormat::kPly; };
-  refuseOther(request.confidence && otherThanPly(), "--confidence", ".ply outputs");
-  refuseOther(request.rank && otherThanPly(), "--rank", ".ply outputs");
-  refuseOther(
-      request.doublePrecision && otherThanPly() && detail::meshFormat(request.output) != detail::MeshFormat::kObj,
-      "--double", ".ply and .obj outputs");
+  // Sweeps have no output of this kind, and none of these options.
+  if (request.confidence || request.rank || request.doublePrecision) checkOutputHolds(request);
   if (request.voxelSize && request.resolution) throw CLI::ValidationError("--voxel-size", "excludes --resolution");
   checkJsonReplaces(request.json, request.input, request.output);
 }

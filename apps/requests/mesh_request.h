@@ -33,6 +33,8 @@ struct MeshRequest {
   Placement placement = Placement::kCertified;
   std::optional<SuffixedLength> adaptive;
   bool triangles = false, open = false, normals = false, ascii = false;
+  std::string unit{};      ///< Of the output; empty for the input's.
+  std::string settings{};  ///< The options given, as text.
   bool isoFromOtsu = false;     ///< True for --iso otsu.
   bool sigmaFromData = false;   ///< True for --sigma-n auto.
   std::optional<Vec3d> origin;  ///< --origin X,Y,Z.

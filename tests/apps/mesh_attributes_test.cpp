@@ -100,7 +100,7 @@ TEST_F(MeshAttributes, OtherFormatsHoldColoursOrNothing) {
   const std::string obj = mFolder / "out.obj", stl = mFolder / "out.stl";
   const Outcome outcome = mesh(obj, {"--attribute", "Cd,heat"});
   ASSERT_EQ(outcome.exitCode, 0);
-  EXPECT_EQ(outcome.err, "pdc: warning: " + obj + ": only .ply files hold heat\n");
+  EXPECT_EQ(outcome.err, "pdc: warning: " + obj + ": only .ply, .vtp and .glb files hold heat\n");
   std::istringstream text(readFile(obj));
   std::string line;
   std::getline(text, line);
@@ -108,7 +108,7 @@ TEST_F(MeshAttributes, OtherFormatsHoldColoursOrNothing) {
   EXPECT_TRUE(line.starts_with("v ") && line.ends_with(" 0.2 1 0")) << line;
   EXPECT_GT(readMesh(obj).positions.size(), 1000u);
   EXPECT_EQ(mesh(stl, {"--attribute", "Cd,heat"}).err,
-            "pdc: warning: " + stl + ": only .ply files hold red, green, blue, heat\n");
+            "pdc: warning: " + stl + ": only .ply, .vtp and .glb files hold red, green, blue, heat\n");
 }
 
 TEST_F(MeshAttributes, BadOnesAreRefusedInOneLine) {

@@ -224,8 +224,8 @@ TEST_F(MeshErrors, AdaptiveGridsThatDoNotFit) {
 }
 
 TEST_F(MeshErrors, PropertiesThatTheFormatLacks) {
-  expectRefusal({mBullet, mFolder / "out.stl", "--confidence"}, kUsage, {"--confidence", ".ply outputs only"});
-  expectRefusal({mBullet, mFolder / "out.obj", "--rank"}, kUsage, {"--rank", ".ply outputs only"});
+  expectRefusal({mBullet, mFolder / "out.stl", "--confidence"}, kUsage, {"--confidence", ".ply, .vtp and .glb outputs only"});
+  expectRefusal({mBullet, mFolder / "out.obj", "--rank"}, kUsage, {"--rank", ".ply, .vtp and .glb outputs only"});
 }
 
 TEST_F(MeshErrors, VoxelSizeAndResolution) {

@@ -74,7 +74,7 @@ TEST(SubdivideCommand, NormalsAndCurvatureAreOfTheLimit) {
   EXPECT_EQ(readMesh(out).positions, expected.positions);
   EXPECT_EQ(readMesh(out).normals.size(), 0u);
   const Outcome dropped = runPdc({"subdivide", in, folder / "out.obj", "--curvature"});
-  EXPECT_NE(dropped.err.find("pdc: warning: only .ply files hold curvature"), std::string::npos) << dropped.err;
+  EXPECT_NE(dropped.err.find("pdc: warning: only .ply, .vtp and .glb files hold curvature"), std::string::npos) << dropped.err;
 }
 
 TEST(SubdivideCommand, TakesCovariancesFromTheFile) {

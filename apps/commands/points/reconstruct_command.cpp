@@ -92,7 +92,7 @@ void checkRequest(const ReconstructRequest& request) {
 
 void addReconstructOptions(CLI::App& command, ReconstructRequest& request) {
   command.add_option("POINTS", request.input, ".ply, .xyz, .pts, .txt, .pcd or .vdb")->required()->type_name("");
-  command.add_option("OUT", request.output, ".ply, .obj, .off or .stl")->required()->type_name("");
+  command.add_option("OUT", request.output, kWrittenMeshes)->required()->type_name("");
   addMixtureOptions(command, request.mixture);
   const auto surface = "Surface";
   addReal(

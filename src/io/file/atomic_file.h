@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/file/byte_output.h"
 #include "io/file/temporary_files.h"
 
 namespace pdc::detail {
@@ -16,16 +17,13 @@ namespace pdc::detail {
 /// permission bits are kept. Without commit() the destructor removes the temporary file and the target stays as it was.
 /// A symbolic link is followed: the file it points to is replaced. What is not a regular file (a device, a pipe) cannot
 /// be replaced and is written to directly.
-class AtomicFile {
+class AtomicFile final : public ByteOutput {
  public:
   /// \throws Error if the target is a folder, may not be written, or no file can be made beside it.
   explicit AtomicFile(std::filesystem::path path);
   ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends bytes. \throws Error if they cannot be written.
-  void write(const void* data, std::size_t size);
+  void write(const void* data, std::size_t size) override;
   /// Makes the file appear under its name; nothing can be written afterwards. \throws Error if that fails.
   void commit();
   [[nodiscard]] std::size_t bytesWritten() const { return mBytesWritten; }

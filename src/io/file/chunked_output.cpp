@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/byte_output.h"
 
 namespace pdc::detail {
 
-void writeChunked(AtomicFile& file, std::size_t count, std::size_t itemsPerChunk, const FormatChunk& format) {
+void writeChunked(ByteOutput& file, std::size_t count, std::size_t itemsPerChunk, const FormatChunk& format) {
   const std::size_t chunks = (count + itemsPerChunk - 1) / itemsPerChunk;
   // The last stage takes chunks in order, so when chunk i + live starts chunk i is written and its buffer free.
   const auto live = 2 * static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()));

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include "io/deflate/inflate.h"
 #include "io/file/file_error.h"
-#include "io/file/inflate.h"
 #include "io/file/line_ends.h"
 #include "io/file/read_file.h"
 #include "io/file/suffix.h"

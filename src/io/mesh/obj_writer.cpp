@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/byte_output.h"
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
@@ -41,7 +41,7 @@ class Colours {
 };
 
 template <typename Real>
-void writeVectors(const Buffer<Vec3<Real>>& vectors, const Colours* colours, AtomicFile& file) {
+void writeVectors(const Buffer<Vec3<Real>>& vectors, const Colours* colours, ByteOutput& file) {
   const bool normals = colours == nullptr;
   writeChunked(file, vectors.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     TextCursor text(out, (end - begin) * 7 * TextCursor::kMaxNumber);
@@ -61,7 +61,7 @@ void writeVectors(const Buffer<Vec3<Real>>& vectors, const Colours* colours, Ato
 
 /// A normal has the number of its vertex.
 template <typename Faces>
-void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
+void writeFaces(const Faces& faces, bool normals, ByteOutput& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     TextCursor text(out, (end - begin + 2 * cornerCount(faces, begin, end)) * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
@@ -83,7 +83,7 @@ void writeFaces(const Faces& faces, bool normals, AtomicFile& file) {
 
 }  // namespace
 
-void writeObj(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options) {
+void writeObj(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
   const bool world = options.doublePrecision;
   const std::string header = fmt::format("# {}\n{}{}", kOwnComment, world ? "" : originLine(mesh, "# "),
                                          commentLine(frameText(options.space, options.unit), "# "));

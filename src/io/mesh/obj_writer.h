@@ -5,10 +5,10 @@
 
 namespace pdc::detail {
 
-class AtomicFile;
+class ByteOutput;
 
 /// v, vn (if the mesh has normals) and f lines; quads come before triangles, and those before polygons, all after
 /// comments. \throws Error
-void writeObj(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options);
+void writeObj(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options);
 
 }  // namespace pdc::detail

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/byte_output.h"
 #include "io/file/chunked_output.h"
 #include "io/file/text_format.h"
 #include "io/mesh/corner_count.h"
@@ -96,7 +96,7 @@ void scatter(const VertexBytes& from, std::size_t begin, std::size_t end, char* 
   }
 }
 
-void writeVertices(const Mesh& mesh, const Buffer<Vec3d>& world, AtomicFile& file) {
+void writeVertices(const Mesh& mesh, const Buffer<Vec3d>& world, ByteOutput& file) {
   const std::vector<VertexBytes> arrays = vertexBytes(mesh, world);
   if (arrays.size() == 1) {
     file.write(arrays[0].data, mesh.positions.size() * arrays[0].stride);
@@ -125,7 +125,7 @@ char* putFace(const Face& face, char* to) {
 }
 
 template <typename Count, typename Faces>
-void writeFaces(const Faces& faces, AtomicFile& file) {
+void writeFaces(const Faces& faces, ByteOutput& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     out.resize((end - begin) * sizeof(Count) + cornerCount(faces, begin, end) * sizeof(std::uint32_t));
     char* next = out.data();
@@ -134,7 +134,7 @@ void writeFaces(const Faces& faces, AtomicFile& file) {
 }
 
 template <typename Count>
-void writeAllFaces(const Mesh& mesh, AtomicFile& file) {
+void writeAllFaces(const Mesh& mesh, ByteOutput& file) {
   writeFaces<Count>(mesh.quads, file);
   writeFaces<Count>(mesh.triangles, file);
   writeFaces<Count>(mesh.polygons, file);
@@ -161,7 +161,7 @@ void putProperty(TextCursor& text, const VertexProperty& property, std::size_t i
       property.values);
 }
 
-void writeVerticesAscii(const Mesh& mesh, const Buffer<Vec3d>& world, AtomicFile& file) {
+void writeVerticesAscii(const Mesh& mesh, const Buffer<Vec3d>& world, ByteOutput& file) {
   std::size_t numbers = 6;
   for (const VertexProperty& property : mesh.properties) numbers += static_cast<std::size_t>(property.components);
   writeChunked(file, mesh.positions.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
@@ -184,7 +184,7 @@ void writeVerticesAscii(const Mesh& mesh, const Buffer<Vec3d>& world, AtomicFile
 }
 
 template <typename Faces>
-void writeFacesAscii(const Faces& faces, AtomicFile& file) {
+void writeFacesAscii(const Faces& faces, ByteOutput& file) {
   writeChunked(file, faces.size(), kItemsPerChunk, [&](std::size_t begin, std::size_t end, ChunkBuffer& out) {
     TextCursor text(out, (end - begin + cornerCount(faces, begin, end)) * TextCursor::kMaxNumber);
     for (std::size_t i = begin; i < end; ++i) {
@@ -206,7 +206,7 @@ const char* plyIndexType(std::size_t vertices) {
   return vertices <= kIntIndices ? "int" : "uint";
 }
 
-void writePly(const Mesh& mesh, AtomicFile& file, const MeshWriteOptions& options) {
+void writePly(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
   checkPlyNames(mesh);
   const Buffer<Vec3d> world = options.doublePrecision ? worldPositions(mesh) : Buffer<Vec3d>();
   const std::string text = header(mesh, options);

@@ -15,13 +15,12 @@
 #include <utility>
 #include <vector>
 
-#include "io/file/atomic_file.h"
+#include "io/file/byte_output.h"
 #include "io/openmesh/openmesh_quiet.h"
 #include "io/openmesh/plain_exporter.h"
 #include "io/parse/origin_text.h"
 #include "mesh/faces.h"
 #include "pdc/error.h"
-#include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc::detail {
 namespace {
@@ -94,10 +93,10 @@ Title stlTitle(const Mesh& mesh, bool binary, const std::string& frame) {
   return {.replaced = kHeader, .text = std::move(text)};
 }
 
-/// Takes what a stream writes into an AtomicFile.
+/// Takes what a stream writes into a ByteOutput.
 class FileBuffer final : public std::streambuf {
  public:
-  FileBuffer(AtomicFile& file, Title title) : mFile(file), mTitle(std::move(title)), mBytes(1 << 20) { reset(); }
+  FileBuffer(ByteOutput& file, Title title) : mFile(file), mTitle(std::move(title)), mBytes(1 << 20) { reset(); }
 
   void flush() {
     // The buffer is larger than any title, so its bytes come together.
@@ -118,13 +117,13 @@ class FileBuffer final : public std::streambuf {
  private:
   void reset() { setp(mBytes.data(), mBytes.data() + mBytes.size()); }
 
-  AtomicFile& mFile;
+  ByteOutput& mFile;
   Title mTitle;
   std::vector<char> mBytes;
 };
 
 /// \param title of a .stl file; empty for a .off file, whose quads stay.
-void write(const Mesh& mesh, AtomicFile& file, const std::optional<Title>& title,
+void write(const Mesh& mesh, ByteOutput& file, const std::optional<Title>& title,
            const OpenMesh::IO::Options& options) {
   const bool split = title.has_value();
   const char* const format = split ? "stl" : "off";
@@ -145,16 +144,13 @@ void write(const Mesh& mesh, AtomicFile& file, const std::optional<Title>& title
 
 }  // namespace
 
-void writeStl(const Mesh& mesh, AtomicFile& file, bool ascii, const std::string& frame) {
+void writeStl(const Mesh& mesh, ByteOutput& file, bool ascii, const std::string& frame) {
   const auto kind = ascii ? OpenMesh::IO::Options::Default : OpenMesh::IO::Options::Binary;
   const Title title = stlTitle(mesh, !ascii, frame);
-  if (mesh.polygons.empty()) return write(mesh, file, title, kind);
-  Mesh triangulated = mesh;
-  triangulatePolygons(triangulated);
-  write(triangulated, file, title, kind);
+  write(mesh, file, title, kind);
 }
 
-void writeOff(const Mesh& mesh, AtomicFile& file, const std::string& frame) {
+void writeOff(const Mesh& mesh, ByteOutput& file, const std::string& frame) {
   write(mesh, file, std::nullopt, OpenMesh::IO::Options::Default);
   // Comments come last, where no reader minds them.
   std::string comments = originLine(mesh, "# ") + commentLine(frame, "# ");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 #include "io/file/mapped_file.h"
 #include "io/file/suffix.h"
 #include "io/volume/header_text.h"

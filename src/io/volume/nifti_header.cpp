@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 #include "io/file/mapped_file.h"
 #include "io/file/suffix.h"
 #include "io/volume/volume_header.h"

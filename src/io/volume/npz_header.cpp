@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 #include "io/file/mapped_file.h"
 #include "io/volume/header_text.h"
 #include "io/volume/volume_header.h"

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "io/file/file_error.h"
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 #include "io/file/mapped_file.h"
 #include "io/file/text_scanner.h"
 #include "pdc/error.h"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include "io/mesh/ply_writer.h"
 #include "pdc/error.h"
 #include "pdc/io/mesh/mesh_reader.h"
+#include "pdc/mesh/triangulate_polygons.h"
 
 namespace pdc {
 namespace {
@@ -284,8 +286,26 @@ TEST(WriteMesh, PolygonsAreTrianglesInStl) {
       << "its last corner lies on its first edge";
 }
 
+/// All suffixes but those that only compress another's.
+constexpr const char* kAllNames[] = {"a.ply", "a.obj", "a.off", "a.stl", "a.glb", "a.3mf", "a.vtp", "a.ply.gz"};
+
+TEST(WriteMesh, PolygonsAreTrianglesInGlbAnd3mf) {
+  const TemporaryFolder folder;
+  Mesh mesh = tinyMesh();
+  mesh.polygons.add(std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  Mesh triangles = mesh;
+  triangulatePolygons(triangles);
+  for (const char* name : {"a.glb", "a.3mf"}) {
+    writeMesh(mesh, folder / name);
+    const std::string bytes = contentsOf(folder / name);
+    writeMesh(triangles, folder / name);
+    EXPECT_EQ(bytes, contentsOf(folder / name)) << name;
+  }
+}
+
 TEST(WriteMesh, EmptyMesh) {
   const TemporaryFolder folder;
+  for (const char* name : kAllNames) EXPECT_GT(writeMesh(Mesh{}, folder / name), 0u) << name;
   for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
     writeMesh(Mesh{}, folder / name);
     EXPECT_TRUE(readMesh(folder / name).empty()) << name;
@@ -297,10 +317,13 @@ TEST(WriteMesh, SameBytesForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const Mesh mesh = randomMesh(250, 250, true);
   const auto all = [&] {
-    writeMesh(mesh, folder / "binary.ply");
     writeMesh(mesh, folder / "text.ply", {.ascii = true});
-    writeMesh(mesh, folder / "a.obj");
-    return contentsOf(folder / "binary.ply") + contentsOf(folder / "text.ply") + contentsOf(folder / "a.obj");
+    std::string bytes;
+    for (const char* name : kAllNames) {
+      writeMesh(mesh, folder / name);
+      bytes += contentsOf(folder / name);
+    }
+    return bytes + contentsOf(folder / "text.ply");
   };
   const std::string expected = all();
   EXPECT_GT(expected.size(), 10u << 20);
@@ -313,7 +336,7 @@ TEST(WriteMesh, SameBytesForAnyNumberOfThreads) {
 TEST(WriteMesh, FullDeviceIsAnErrorInEachFormat) {
   const TemporaryFolder folder;
   const Mesh mesh = randomMesh(100, 100, true);
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+  for (const char* name : kAllNames) {
     fs::create_symlink("/dev/full", folder / name);
     try {
       writeMesh(mesh, folder / name);
@@ -323,7 +346,7 @@ TEST(WriteMesh, FullDeviceIsAnErrorInEachFormat) {
     }
     EXPECT_TRUE(fs::is_symlink(folder / name));
   }
-  EXPECT_EQ(folder.entries(), 4u);
+  EXPECT_EQ(folder.entries(), std::size(kAllNames));
 }
 
 TEST(WriteMesh, MistakesOfTheCaller) {
@@ -336,20 +359,18 @@ TEST(WriteMesh, MistakesOfTheCaller) {
   EXPECT_THROW(writeMesh(mesh, folder / "a.ply"), std::invalid_argument);
   mesh.normals.clear();
   mesh.properties = {{"confidence", 1, Buffer<float>(4)}};
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
-    EXPECT_THROW(writeMesh(mesh, folder / name), std::invalid_argument) << name;
+  for (const char* name : kAllNames) EXPECT_THROW(writeMesh(mesh, folder / name), std::invalid_argument) << name;
   mesh.properties.clear();
   mesh.quads[0][2] = 5;
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"})
-    EXPECT_THROW(writeMesh(mesh, folder / name), Error) << name;
+  for (const char* name : kAllNames) EXPECT_THROW(writeMesh(mesh, folder / name), Error) << name;
   EXPECT_EQ(folder.entries(), 0u);
 }
 
 TEST(CheckMeshPath, KnowsSuffixesAndFolders) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.ply", "a.OBJ", "a.Stl", "a.off", "a b.c.ply"})
+  for (const char* name : {"a.ply", "a.OBJ", "a.Stl", "a.off", "a b.c.ply", "a.glb", "a.3mf", "a.vtp", "a.STL.gz"})
     EXPECT_NO_THROW(checkMeshPath(folder / name));
-  for (const char* name : {"a.txt", "a", "", ".ply", "missing/a.ply"})
+  for (const char* name : {"a.txt", "a", "", ".ply", "missing/a.ply", "a.glb.gz", "a.gz"})
     EXPECT_THROW(checkMeshPath(folder / name), Error);
   EXPECT_THROW(checkMeshPath(""), Error);
   EXPECT_EQ(folder.entries(), 0u);

@@ -1,4 +1,4 @@
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 
 #include "io/volume/volume_files.h"
 

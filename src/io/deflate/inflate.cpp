@@ -1,4 +1,4 @@
-#include "io/file/inflate.h"
+#include "io/deflate/inflate.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
