@@ -13,6 +13,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -27,7 +28,7 @@ Json factsOf(const CheckRequest& request) {
   }();
   ProgressBar bar(!request.quiet);
   const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
-  Json facts{{"file", request.file.string()}};
+  Json facts{{"file", shownPath(request.file)}};
   facts.update(checkFacts(file, {.progress = show, .stop = &interruptFlag()}));
   return facts;
 }

@@ -19,6 +19,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -37,8 +38,8 @@ struct ClusterRun {
 
 Json toJson(const ClusterRequest& request, const ClusterRun& run) {
   const ClusterReport& r = run.report;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"cell", run.options.cell},
           {"quadric", wordOf(kQuadricWords, run.options.quadric)},
           {"sigma_n", run.options.sigmaNormal},
@@ -61,7 +62,7 @@ Json toJson(const ClusterRequest& request, const ClusterRun& run) {
 
 void printSummary(const ClusterRequest& request, const ClusterRun& run) {
   const ClusterReport& r = run.report;
-  fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", request.output.string(), r.trianglesAfter,
+  fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", shownPath(request.output), r.trianglesAfter,
              r.trianglesBefore, r.vertices, run.bytesWritten);
   if (run.options.clean) fmt::print("{} folded and {} duplicate triangles dropped\n", r.foldedFaces, r.duplicateFaces);
   fmt::print("{:.2f} s: reading and clustering {:.2f}, writing {:.2f}\n", run.secondsCluster + run.secondsWrite,

@@ -18,6 +18,7 @@
 #include "terminal/length_option.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -85,8 +86,8 @@ Json toJson(const std::optional<PairReport>& pairs) {
 
 Json toJson(const DecimateRequest& request, const DecimateRun& run) {
   const DecimateReport& r = run.report;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"quadric", wordOf(kQuadricWords, request.options.quadric)},
           {"placement", wordOf(kPlacements, request.options.placement)},
           {"faces_before", r.facesBefore},
@@ -117,7 +118,7 @@ Json toJson(const DecimateRequest& request, const DecimateRun& run) {
 
 void printSummary(const DecimateRequest& request, const DecimateRun& run) {
   const DecimateReport& r = run.report;
-  fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", request.output.string(), r.facesAfter, r.facesBefore,
+  fmt::print("{}: {} of {} triangles, {} vertices; {} bytes\n", shownPath(request.output), r.facesAfter, r.facesBefore,
              r.verticesAfter, run.bytesWritten);
   fmt::print("noise {:.2g} mean edges; sigma_n {:.2g}, memory {:.2g}\n", r.noise, r.sigmaNormal, r.memory);
   if (request.options.error) fmt::print("no point of either surface is farther than {:.4g} from the other\n", r.error);

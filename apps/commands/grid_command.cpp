@@ -13,6 +13,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -35,8 +36,8 @@ Json volumeJson(const ProcessedGrid& grid) {
 Json toJson(const MeshRequest& request, const GridRun& run) {
   const openvdb::GridBase& grid = *run.grid.volume.grid;
   const openvdb::Vec3d voxel = grid.voxelSize();
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"name", grid.getName()},
           {"value_type", grid.valueType()},
           {"saved_as_half", grid.saveFloatAsHalf()},
@@ -57,7 +58,7 @@ void printSummary(const MeshRequest& request, const GridRun& run) {
     fmt::print("\n");
   }
   const openvdb::GridBase& grid = *run.grid.volume.grid;
-  fmt::print("{}: a {} of {} active voxels; {} bytes\n", request.output.string(), nameOf(run.grid.volume.gridClass),
+  fmt::print("{}: a {} of {} active voxels; {} bytes\n", shownPath(request.output), nameOf(run.grid.volume.gridClass),
              grid.activeVoxelCount(), run.bytesWritten);
   fmt::print("{:.2f} s: reading and processing {:.2f}, writing {:.2f}\n", run.secondsProcess + run.secondsWrite,
              run.secondsProcess, run.secondsWrite);

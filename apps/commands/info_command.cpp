@@ -11,6 +11,7 @@
 #include "terminal/facts_text.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -22,7 +23,7 @@ bool isVolume(const InfoRequest& request) {
 
 nlohmann::ordered_json describeVolume(const InfoRequest& request) {
   if (!request.histogram.empty()) checkPngPath(request.histogram);
-  nlohmann::ordered_json facts{{"file", request.file.string()}};
+  nlohmann::ordered_json facts{{"file", shownPath(request.file)}};
   const VolumeFacts volume = [&] {
     ProgressBar bar(!request.quiet);
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };

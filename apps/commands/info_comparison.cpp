@@ -9,6 +9,7 @@
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -45,7 +46,7 @@ Json compareFiles(const InfoRequest& request) {
     throw Error(fmt::format("--samples is {}, must be 1 to {}", request.samples, kMost));
   const MeshFile file = readShown(request.file, request.quiet);
   const MeshFile reference = readShown(request.reference, request.quiet);
-  Json facts{{"file", request.file.string()}};
+  Json facts{{"file", shownPath(request.file)}};
   {
     const ExitOnInterrupt scope;
     facts.update(meshFileFacts(file));

@@ -22,6 +22,7 @@
 #include "terminal/busy_sign.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -147,7 +148,7 @@ std::string knownText(const std::string& text) { return text.empty() ? "not know
 void printSummary(const MeshRequest& request, const MeshRun& run) {
   const std::size_t open = run.contour.boundaryEdges;
   const auto boundary = open == 0 ? std::string("closed") : fmt::format("{} boundary edges", open);
-  fmt::print("{}: {} vertices, {}, {}; {} bytes\n", request.output.string(), run.vertices, facesText(run), boundary,
+  fmt::print("{}: {} vertices, {}, {}; {} bytes\n", shownPath(request.output), run.vertices, facesText(run), boundary,
              run.bytesWritten);
   if (run.meaning)
     fmt::print("a {} ({}), {} values inside ({})\n", nameOf(run.meaning->gridClass), phraseOf(run.meaning->classBy),
@@ -197,7 +198,8 @@ void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun&
   run.properties = propertiesJson(mesh.properties);
   const std::string lost = lostProperties(mesh, request.output);
   if (!lost.empty())
-    warn(run, fmt::format("{}: only {} files hold {}", request.output.string(), detail::kFormatsWithProperties, lost));
+    warn(run,
+         fmt::format("{}: only {} files hold {}", shownPath(request.output), detail::kFormatsWithProperties, lost));
 
   const std::string unit = request.unit.empty() && run.volume ? run.volume->unit : request.unit;
   detail::Stopwatch stopwatch;
@@ -274,12 +276,12 @@ bool runFrame(const MeshRequest& request, int number, std::future<ReadInput>& re
     throw;
   } catch (const std::exception& error) {
     std::fputs(fmt::format("pdc: {}{}\n", run.frame, error.what()).c_str(), stderr);
-    reports.add({{"input", request.input.string()}, {"error", error.what()}}, number);
+    reports.add({{"input", shownPath(request.input)}, {"error", error.what()}}, number);
     return false;
   }
   reports.add(toJson(request, run), number);
   if (!request.quiet && request.json != "-")
-    fmt::print("{}{}: {} vertices, {}; {:.2f} s\n", run.frame, request.output.string(), run.vertices, facesText(run),
+    fmt::print("{}{}: {} vertices, {}; {:.2f} s\n", run.frame, shownPath(request.output), run.vertices, facesText(run),
                run.secondsTotal);
   return true;
 }
@@ -299,7 +301,7 @@ FrameCounts runInOrder(const FrameRequests& requests, const std::vector<Frame>& 
   for (const auto& [number, isThere] : frames) {
     const MeshRequest request = requests.of(number);
     if (!isThere) {
-      reports.add({{"input", request.input.string()}, {"missing", true}}, number);
+      reports.add({{"input", shownPath(request.input)}, {"missing", true}}, number);
       continue;
     }
     std::future<ReadInput> now = std::move(next);
@@ -324,7 +326,7 @@ void runFrames(const MeshRequest& request) {
     frames.push_back({number, isThere});
   }
   if (std::none_of(frames.begin(), frames.end(), [](const Frame& f) { return f.isThere; }))
-    throw Error(fmt::format("'{}': no frame is there", request.input.string()));
+    throw Error(fmt::format("'{}': no frame is there", shownPath(request.input)));
   FrameReports reports(request.json);
   const FrameCounts counts = runInOrder(requests, frames, reports);
   if (counts.failed > 0) throw Error(fmt::format("{} of {} frames failed", counts.failed, counts.there));

@@ -15,6 +15,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/numbers.h"
 #include "terminal/progress_bar.h"
+#include "terminal/shown_path.h"
 #include "terminal/view_option.h"
 #include "terminal/warning.h"
 
@@ -52,7 +53,7 @@ Image draw(const RenderRequest& request, std::string& scale) {
     return readMeshFile(request.mesh).mesh;
   }();
   if (mesh.empty())
-    throw Error(fmt::format("{}: the mesh has no faces, so there is nothing to draw", request.mesh.string()));
+    throw Error(fmt::format("{}: the mesh has no faces, so there is nothing to draw", shownPath(request.mesh)));
   ProgressBar bar(!request.quiet);
   const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
   const Monitor monitor{.progress = show, .stop = &interruptFlag()};
@@ -119,7 +120,7 @@ void runRender(const RenderRequest& request) {
     bytes = writePng(image, request.picture);
   }
   if (!request.quiet)
-    fmt::print("{}: {} x {} pixels, {} bytes{}\n", request.picture.string(), image.width, image.height, bytes, scale);
+    fmt::print("{}: {} x {} pixels, {} bytes{}\n", shownPath(request.picture), image.width, image.height, bytes, scale);
 }
 
 }  // namespace pdc

@@ -10,6 +10,7 @@
 #include "files/mesh_file.h"
 #include "pdc/error.h"
 #include "pdc/mesh/distance.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -60,7 +61,7 @@ ShadingValues shadingValues(const RenderRequest& request, const Mesh& mesh, cons
   } else if (const VertexProperty* const property = mesh.property(shown.name)) {
     shown.values = scalars(*property);
   } else {
-    throw Error(fmt::format("{}: its vertices have no property \"{}\"{}", request.mesh.string(), shown.name,
+    throw Error(fmt::format("{}: its vertices have no property \"{}\"{}", shownPath(request.mesh), shown.name,
                             request.shading == "error" ? "; give one, or a --reference" : ""));
   }
   if (request.shading == "confidence") {

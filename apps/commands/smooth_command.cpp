@@ -16,6 +16,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -34,8 +35,8 @@ struct SmoothRun {
 
 Json toJson(const SmoothRequest& request, const SmoothRun& run) {
   const SmoothReport& r = run.report;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"iterations", run.options.iterations},
           {"sigma", run.options.sigma ? Json(*run.options.sigma) : Json("adaptive")},
           {"sigma_property", run.options.sigmaProperty},
@@ -59,7 +60,7 @@ Json toJson(const SmoothRequest& request, const SmoothRun& run) {
 
 void printSummary(const SmoothRequest& request, const SmoothRun& run) {
   const SmoothReport& r = run.report;
-  fmt::print("{}: {} vertices, {} triangles; {} bytes\n", request.output.string(), r.vertices, r.triangles,
+  fmt::print("{}: {} vertices, {} triangles; {} bytes\n", shownPath(request.output), r.vertices, r.triangles,
              run.bytesWritten);
   fmt::print("sigma {:.2g} mean edges, at most {:.2g}; vertices moved by {:.2g}, at most {:.2g}\n", r.meanSigma,
              r.largestSigma, r.meanMove, r.largestMove);

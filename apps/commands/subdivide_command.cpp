@@ -18,6 +18,7 @@
 #include "terminal/interrupt.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
+#include "terminal/shown_path.h"
 #include "terminal/warning.h"
 
 namespace pdc {
@@ -72,8 +73,8 @@ bool hasLimit(const SubdivideRequest& request) {
 
 Json toJson(const SubdivideRequest& request, const SubdivideRun& run) {
   const SubdivideReport& r = run.report;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"scheme", wordOf(kSchemes, request.options.scheme)},
           {"weights", wordOf(kWeights, request.options.weights)},
           {"covariance", wordOf(kCovariances, request.covariance)},
@@ -96,7 +97,7 @@ Json toJson(const SubdivideRequest& request, const SubdivideRun& run) {
 
 void printSummary(const SubdivideRequest& request, const SubdivideRun& run) {
   const SubdivideReport& r = run.report;
-  fmt::print("{}: {} faces of {}, {} vertices; {} bytes\n", request.output.string(), r.facesAfter, r.facesBefore,
+  fmt::print("{}: {} faces of {}, {} vertices; {} bytes\n", shownPath(request.output), r.facesAfter, r.facesBefore,
              r.verticesAfter, run.bytesWritten);
   fmt::print("{} boundary edges, {} creases, {} extraordinary vertices\n", r.boundaryEdges, r.creaseEdges,
              r.extraordinaryVertices);

@@ -9,6 +9,7 @@
 #include "pdc/mesh/vertex_covariances.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "reports/json_report.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -151,7 +152,7 @@ Json meshFileFacts(const MeshFile& file) {
 }
 
 Json gatherFacts(const std::filesystem::path& path) {
-  Json facts{{"file", path.string()}};
+  Json facts{{"file", shownPath(path)}};
   facts.update(factsByKind(path));
   return facts;
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "parallel/machine_memory.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -63,8 +64,8 @@ nlohmann::ordered_json toJson(const std::vector<GridStepReport>& steps) {
 nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
   const unsigned allThreads = std::thread::hardware_concurrency();
   const unsigned threads = run.options.threads > 0 ? static_cast<unsigned>(run.options.threads) : allThreads;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"vertices", run.vertices},
           {"quads", run.quads},
           {"triangles", run.triangles},

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "terminal/shown_path.h"
+
 namespace pdc {
 
 /// A line on standard error.
 inline void printWarning(const std::string& message) {
-  std::fputs(fmt::format("pdc: warning: {}\n", message).c_str(), stderr);
+  std::fputs(fmt::format("pdc: warning: {}\n", shownText(message)).c_str(), stderr);
 }
 
 /// Puts warnings on standard error, unless `quiet`, and adds them to those of a report.

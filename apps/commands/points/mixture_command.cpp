@@ -12,6 +12,7 @@
 #include "pdc/io/points/points_reader.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 
@@ -49,7 +50,7 @@ void runMixture(const MixtureCommandRequest& request) {
   const double secondsMixture = stopwatch.lap();
   const std::size_t bytes = writeMeshFile(mesh, request.output, {.ascii = request.ascii}, request.quiet);
   const double secondsWrite = stopwatch.lap();
-  nlohmann::ordered_json json{{"input", request.input.string()}, {"output", request.output.string()}};
+  nlohmann::ordered_json json{{"input", shownPath(request.input)}, {"output", shownPath(request.output)}};
   json.update(toJson(report));
   json.update({{"gaussians", gaussians},
                {"bytes", bytes},
@@ -57,7 +58,7 @@ void runMixture(const MixtureCommandRequest& request) {
                {"warnings", warnings}});
   writeJson(json, request.json);
   if (request.quiet || request.json == "-") return;
-  fmt::print("{}: {} Gaussians of {} points, sigma0 {:.4g}; {} bytes\n", request.output.string(), gaussians,
+  fmt::print("{}: {} Gaussians of {} points, sigma0 {:.4g}; {} bytes\n", shownPath(request.output), gaussians,
              report.points, report.sigma0, bytes);
   fmt::print("{:.2f} s: reading {:.2f}, mixture {:.2f}, writing {:.2f}\n", secondsRead + secondsMixture + secondsWrite,
              secondsRead, secondsMixture, secondsWrite);

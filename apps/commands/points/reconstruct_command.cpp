@@ -13,6 +13,7 @@
 #include "pdc/io/points/points_reader.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
+#include "terminal/shown_path.h"
 
 namespace pdc {
 namespace {
@@ -42,8 +43,8 @@ Json toJson(const TriangulateReport& report) {
 
 Json toJson(const ReconstructRequest& request, const ReconstructRun& run) {
   const ReconstructReport& r = run.report;
-  return {{"input", request.input.string()},
-          {"output", request.output.string()},
+  return {{"input", shownPath(request.input)},
+          {"output", shownPath(request.output)},
           {"mixture", toJson(r.mixture)},
           {"gaussians", r.gaussians},
           {"triangulation", toJson(r.triangulation)},
@@ -64,7 +65,7 @@ Json toJson(const ReconstructRequest& request, const ReconstructRun& run) {
 
 void printSummary(const ReconstructRequest& request, const ReconstructRun& run) {
   const ReconstructReport& r = run.report;
-  fmt::print("{}: {} triangles, {} vertices of {} points and {} Gaussians; {} bytes\n", request.output.string(),
+  fmt::print("{}: {} triangles, {} vertices of {} points and {} Gaussians; {} bytes\n", shownPath(request.output),
              run.triangles, run.vertices, r.mixture.points, r.gaussians, run.bytesWritten);
   fmt::print("{} components, {} boundaries, {} Gaussians unused\n", r.triangulation.components,
              r.triangulation.boundaryLoops, r.triangulation.unusedGaussians);
