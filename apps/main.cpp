@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "commands/check_command.h"
 #include "commands/cluster_command.h"
@@ -19,11 +22,14 @@
 #include "commands/smooth_command.h"
 #include "commands/subdivide_command.h"
 #include "commands/sweep_command.h"
+#include "files/json_file.h"
+#include "files/options_file.h"
 #include "files/pipes.h"
 #include "parallel/machine_memory.h"
 #include "pdc/error.h"
 #include "terminal/huge_heap.h"
 #include "terminal/interrupt.h"
+#include "terminal/settings.h"
 #include "terminal/shown_path.h"
 
 namespace {
@@ -37,76 +43,118 @@ int fail(int exitCode, std::string message) {
   return exitCode;
 }
 
+/// All commands of the program.
+class Commands {
+ public:
+  Commands(CLI::App& app, std::string commandLine) : mApp(app), mCommandLine(std::move(commandLine)) {
+    addThoseOfVolumes();
+    addThoseOfMeshes();
+    mPoints.emplace(app);
+    for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+      pdc::addOptionsFile(*command);
+  }
+
+  /// Runs the one that was given. \returns the exit code.
+  [[nodiscard]] int run() const {
+    const CLI::App& given = *mApp.get_subcommands().front();
+    pdc::saveGivenOptions(given);
+    pdc::reportOptions(pdc::givenSettings(given));
+    for (const auto& [command, runIt] : mRuns)
+      if (command->parsed()) return runIt();
+    mPoints->run();
+    return kDone;
+  }
+
+ private:
+  template <typename Run>
+  CLI::App& add(const char* name, const char* help, const Run& run) {
+    CLI::App* const command = mApp.add_subcommand(name, help);
+    mRuns.emplace_back(command, [run] {
+      run();
+      return kDone;
+    });
+    return *command;
+  }
+
+  void addThoseOfVolumes() {
+    CLI::App& mesh = add("mesh", "Contour a grid or a scene and write the mesh", [this] { pdc::runMesh(mMesh); });
+    pdc::addMeshOptions(mesh, mMesh);
+    pdc::addPipes(mesh, mMesh.input, &mMesh.output);
+    mesh.footer("Example: pdc mesh part.vdb part.ply --sigma-n 0.02 --json part.json");
+    CLI::App& grid =
+        add("grid", "Clip, resample, smooth and combine a grid, and write it", [this] { pdc::runGrid(mGrid); });
+    pdc::addGridOptions(grid, mGrid);
+    pdc::addPipes(grid, mGrid.input, &mGrid.output);
+    CLI::App& info = add("info", "Say what is in a grid file, a scene or a mesh", [this] { pdc::runInfo(mInfo); });
+    pdc::addInfoOptions(info, mInfo);
+    pdc::addPipes(info, mInfo.file, nullptr);
+    CLI::App& sweep = add("sweep", "Contour for several values and compare, with pictures",
+                          [this] { pdc::runSweep(mSweep, mCommandLine); });
+    pdc::addSweepOptions(sweep, mSweep);
+    pdc::addPipes(sweep, mSweep.mesh.input, nullptr);
+  }
+
+  void addThoseOfMeshes() {
+    CLI::App* const check = mApp.add_subcommand("check", "Say whether a mesh is clean, and what is wrong with it");
+    mRuns.emplace_back(check, [this] { return pdc::runCheck(mCheck) ? kDone : kFailed; });
+    pdc::addCheckOptions(*check, mCheck);
+    pdc::addPipes(*check, mCheck.file, nullptr);
+    CLI::App& render = add("render", "Draw a mesh into a .png file", [this] { pdc::runRender(mRender); });
+    pdc::addRenderOptions(render, mRender);
+    pdc::addPipes(render, mRender.mesh, &mRender.picture);
+    CLI::App& decimate = add("decimate", "Write a mesh with fewer triangles", [this] { pdc::runDecimate(mDecimate); });
+    pdc::addDecimateOptions(decimate, mDecimate);
+    pdc::addPipes(decimate, mDecimate.input, &mDecimate.output);
+    CLI::App& cluster =
+        add("cluster", "Write a mesh with one vertex per cell of a grid, fast", [this] { pdc::runCluster(mCluster); });
+    pdc::addClusterOptions(cluster, mCluster);
+    pdc::addPipes(cluster, mCluster.input, &mCluster.output);
+    CLI::App& subdivide =
+        add("subdivide", "Refine a mesh into a smooth surface", [this] { pdc::runSubdivide(mSubdivide); });
+    pdc::addSubdivideOptions(subdivide, mSubdivide);
+    pdc::addPipes(subdivide, mSubdivide.input, &mSubdivide.output);
+    CLI::App& smooth =
+        add("smooth", "Write a mesh without its noise, creases kept", [this] { pdc::runSmooth(mSmooth); });
+    pdc::addSmoothOptions(smooth, mSmooth);
+    pdc::addPipes(smooth, mSmooth.input, &mSmooth.output);
+  }
+
+  CLI::App& mApp;
+  std::string mCommandLine;
+  std::vector<std::pair<CLI::App*, std::function<int()>>> mRuns;
+  pdc::MeshRequest mMesh, mGrid;
+  pdc::InfoRequest mInfo;
+  pdc::SweepRequest mSweep;
+  pdc::CheckRequest mCheck;
+  pdc::RenderRequest mRender;
+  pdc::DecimateRequest mDecimate;
+  pdc::ClusterRequest mCluster;
+  pdc::SubdivideRequest mSubdivide;
+  pdc::SmoothRequest mSmooth;
+  std::optional<pdc::PointsCommands> mPoints;
+};
+
 /// Returns the exit code.
 int run(int argc, char** argv) {
-  CLI::App app("Turns volumes (OpenVDB grids, implicit scenes) into meshes.", "pdc");
+  CLI::App app("Turns volumes (OpenVDB grids, dense volumes, implicit scenes, points) into meshes.", "pdc");
   app.set_version_flag("--version", "pdc " PDC_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 failed (or not clean), 2 wrong usage, 130 interrupted.\n"
       "`pdc COMMAND --help` lists the options of a command.");
-
-  pdc::MeshRequest mesh;
-  CLI::App* meshCommand = app.add_subcommand("mesh", "Contour a grid or a scene and write the mesh");
-  pdc::addMeshOptions(*meshCommand, mesh);
-  pdc::addPipes(*meshCommand, mesh.input, &mesh.output);
-  meshCommand->footer("Example: pdc mesh part.vdb part.ply --sigma-n 0.02 --json part.json");
-  pdc::MeshRequest grid;
-  CLI::App* gridCommand = app.add_subcommand("grid", "Clip, resample, smooth and combine a grid, and write it");
-  pdc::addGridOptions(*gridCommand, grid);
-  pdc::addPipes(*gridCommand, grid.input, &grid.output);
-  pdc::InfoRequest info;
-  CLI::App* infoCommand = app.add_subcommand("info", "Say what is in a grid file, a scene or a mesh");
-  pdc::addInfoOptions(*infoCommand, info);
-  pdc::addPipes(*infoCommand, info.file, nullptr);
-  pdc::CheckRequest check;
-  CLI::App* checkCommand = app.add_subcommand("check", "Say whether a mesh is clean, and what is wrong with it");
-  pdc::addCheckOptions(*checkCommand, check);
-  pdc::addPipes(*checkCommand, check.file, nullptr);
-  pdc::RenderRequest render;
-  CLI::App* renderCommand = app.add_subcommand("render", "Draw a mesh into a .png file");
-  pdc::addRenderOptions(*renderCommand, render);
-  pdc::addPipes(*renderCommand, render.mesh, &render.picture);
-  pdc::DecimateRequest decimate;
-  CLI::App* decimateCommand = app.add_subcommand("decimate", "Write a mesh with fewer triangles");
-  pdc::addDecimateOptions(*decimateCommand, decimate);
-  pdc::addPipes(*decimateCommand, decimate.input, &decimate.output);
-  pdc::ClusterRequest cluster;
-  CLI::App* clusterCommand = app.add_subcommand("cluster", "Write a mesh with one vertex per cell of a grid, fast");
-  pdc::addClusterOptions(*clusterCommand, cluster);
-  pdc::addPipes(*clusterCommand, cluster.input, &cluster.output);
-  pdc::SubdivideRequest subdivide;
-  CLI::App* subdivideCommand = app.add_subcommand("subdivide", "Refine a mesh into a smooth surface");
-  pdc::addSubdivideOptions(*subdivideCommand, subdivide);
-  pdc::addPipes(*subdivideCommand, subdivide.input, &subdivide.output);
-  pdc::SmoothRequest smooth;
-  CLI::App* smoothCommand = app.add_subcommand("smooth", "Write a mesh without its noise, creases kept");
-  pdc::addSmoothOptions(*smoothCommand, smooth);
-  pdc::addPipes(*smoothCommand, smooth.input, &smooth.output);
-  const pdc::PointsCommands points(app);
-  pdc::SweepRequest sweep;
-  CLI::App* sweepCommand = app.add_subcommand("sweep", "Contour for several values and compare, with pictures");
-  pdc::addSweepOptions(*sweepCommand, sweep);
-  pdc::addPipes(*sweepCommand, sweep.mesh.input, nullptr);
-
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const Commands commands(app, pdc::commandLine(arguments));
+  if (const std::string unknown = pdc::unknownWord(app, arguments); !unknown.empty())
+    return fail(kUsage, unknown + " (see pdc --help)");
+  arguments = pdc::withOptionsFile(app, std::move(arguments));
+  std::reverse(arguments.begin(), arguments.end());  // As the parser takes them.
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {
     app.exit(help);
     return kDone;
   }
-  if (meshCommand->parsed()) pdc::runMesh(mesh);
-  if (gridCommand->parsed()) pdc::runGrid(grid);
-  if (infoCommand->parsed()) pdc::runInfo(info);
-  if (checkCommand->parsed() && !pdc::runCheck(check)) return kFailed;
-  if (renderCommand->parsed()) pdc::runRender(render);
-  if (decimateCommand->parsed()) pdc::runDecimate(decimate);
-  if (clusterCommand->parsed()) pdc::runCluster(cluster);
-  if (subdivideCommand->parsed()) pdc::runSubdivide(subdivide);
-  if (smoothCommand->parsed()) pdc::runSmooth(smooth);
-  points.run();
-  if (sweepCommand->parsed()) pdc::runSweep(sweep, pdc::commandLine({argv + 1, argv + argc}));
-  return kDone;
+  return commands.run();
 }
 
 }  // namespace

@@ -19,7 +19,22 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
          std::filesystem::equivalent(a, b, ignored);
 }
 
+/// What reportOptions() was told.
+nlohmann::ordered_json& reportedOptions() {
+  static nlohmann::ordered_json options;
+  return options;
+}
+
+nlohmann::ordered_json withOptions(nlohmann::ordered_json json) {
+  if (!reportedOptions().empty()) json["options"] = reportedOptions();
+  return json;
+}
+
 }  // namespace
+
+void reportOptions(const std::vector<std::pair<std::string, std::string>>& options) {
+  for (const auto& [name, value] : options) reportedOptions()[name] = value;
+}
 
 void checkJsonPath(const std::filesystem::path& path) {
   if (!path.empty() && path != "-") detail::checkWritable(path);
@@ -34,7 +49,7 @@ void checkJsonReplaces(const std::filesystem::path& json, const std::filesystem:
 
 void writeJson(const nlohmann::ordered_json& json, const std::filesystem::path& path) {
   // File names need not be UTF-8; JSON has to be.
-  writeText(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
+  writeText(withOptions(json).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
 }
 
 std::string jsonLine(const nlohmann::ordered_json& json) {
@@ -43,7 +58,7 @@ std::string jsonLine(const nlohmann::ordered_json& json) {
 
 void JsonLines::add(const nlohmann::ordered_json& json) {
   if (mPath.empty()) return;
-  const std::string line = jsonLine(json) + "\n";
+  const std::string line = jsonLine(withOptions(json)) + "\n";
   if (mPath == "-") {
     fmt::print("{}", line);
     std::fflush(stdout);

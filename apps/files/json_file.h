@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pdc {
 
@@ -16,6 +17,9 @@ void checkJsonPath(const std::filesystem::path& path);
 /// \throws CLI::ValidationError.
 void checkJsonReplaces(const std::filesystem::path& json, const std::filesystem::path& input,
                        const std::filesystem::path& output);
+
+/// All reports written from now on say so under "options": names and values. Not for several threads.
+void reportOptions(const std::vector<std::pair<std::string, std::string>>& options);
 
 /// Writes to a file, which appears only when it is complete, or to standard output for "-"; does nothing for an empty
 /// path.

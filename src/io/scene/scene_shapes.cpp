@@ -1,8 +1,13 @@
 #include "io/scene/scene_shapes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "io/file/closest_word.h"
 
 namespace pdc::detail {
 namespace {
@@ -20,10 +25,10 @@ const ShapeKind* findShape(std::string_view name) {
   return nullptr;
 }
 
-std::string knownShapes() {
-  std::string names;
+std::vector<std::string> knownShapes() {
+  std::vector<std::string> names;
   for (const auto& kinds : {scenePrimitives(), sceneOperators()})
-    for (const ShapeKind& kind : kinds) names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+    for (const ShapeKind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }
 
@@ -37,7 +42,11 @@ FieldPtr readShape(const YamlValue& value, SceneContext& context) {
     value.fail(fmt::format("a shape is a map with one key, its name; this one has {}", entries.size()));
   const auto& [name, parameters] = entries.front();
   const ShapeKind* kind = findShape(name.name());
-  if (kind == nullptr) name.fail(fmt::format("unknown shape \'{}\'; known are {}", name.name(), knownShapes()));
+  if (kind == nullptr) {
+    const std::vector<std::string> known = knownShapes();
+    name.fail(fmt::format("unknown shape \'{}\'{}; known are {}", name.name(), didYouMean(name.name(), known),
+                          fmt::join(known, ", ")));
+  }
 
   ++context.depth;
   try {

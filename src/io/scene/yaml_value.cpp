@@ -8,6 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "io/file/closest_word.h"
 
 namespace pdc::detail {
 namespace {
@@ -144,7 +148,9 @@ void YamlValue::addEntries(Entries& result, std::unordered_set<std::string>& key
 YamlMap::YamlMap(const YamlValue& value, std::initializer_list<std::string_view> keys) : mSelf(value) {
   for (auto& [key, entry] : value.entries()) {
     if (std::find(keys.begin(), keys.end(), key.name()) == keys.end())
-      key.fail(fmt::format("unknown key \'{}\'; {} takes {}", key.name(), value.name(), fmt::join(keys, ", ")));
+      key.fail(fmt::format("unknown key \'{}\'{}; {} takes {}", key.name(),
+                           didYouMean(key.name(), std::vector<std::string>(keys.begin(), keys.end())), value.name(),
+                           fmt::join(keys, ", ")));
     mValues.push_back(std::move(entry));
   }
 }

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <string>
+#include <vector>
 
+#include "io/file/closest_word.h"
 #include "io/file/file_error.h"
 #include "io/vdb/vdb_file.h"
 #include "io/vdb/vdb_grid.h"
@@ -168,7 +171,11 @@ const VdbEntry& findEntry(const VdbFile& file, const std::string& name) {
     if (found == nullptr) found = &entry;
   }
   if (found == nullptr && name.empty()) throw Error("no grid can be contoured; there is " + listNames(file));
-  if (found == nullptr) throw Error(fmt::format("no grid \"{}\"; there is {}", name, listNames(file)));
+  if (found == nullptr) {
+    std::vector<std::string> names;
+    for (const VdbEntry& entry : file.entries()) names.push_back(entry.shownName());
+    throw Error(fmt::format("no grid \"{}\"{}; there is {}", name, detail::didYouMean(name, names), listNames(file)));
+  }
   return *found;
 }
 
