@@ -9,8 +9,10 @@
 #include <limits>
 #include <random>
 
+#include "extract/contour_memory.h"
 #include "pdc/error.h"
 #include "pdc/extract/contour.h"
+#include "pdc/extract/contour_forecast.h"
 #include "pdc/grid/grid_steps.h"
 #include "pdc/mesh/mesh_report.h"
 #include "pdc/sample/vdb/grid_source.h"
@@ -178,8 +180,12 @@ class Chain {
     GridVolume volume = settleGrid(anyGrid(), settle);
     applyGridSteps(volume, makeSteps());
     const GridSource source(volume.grid, {.iso = volume.iso, .gridClass = volume.gridClass, .inside = volume.inside});
-    // Between tiles of thousands of voxels there can be surfaces of a hundred million vertices, which take minutes.
-    const MeshReport report = analyze(contour(source, {.maxMemory = std::size_t{1} << 30}));
+    // Between tiles of thousands of voxels there can be surfaces of a hundred million vertices, which take minutes, and
+    // finding their blocks takes seconds: as `pdc mesh` does, ask first.
+    const ContourOptions options{.maxMemory = std::size_t{1} << 30};
+    if (const auto forecast = forecastContour(source, options))
+      detail::checkMemory(forecast->memory, forecast->vertices, options);
+    const MeshReport report = analyze(contour(source, options));
     if (report.boundaryEdges + report.nonManifoldEdges + report.misorientedEdges > 0)
       mOutcome.fault = "a mesh that is open or no manifold";
   }
