@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -15,16 +16,20 @@
 
 namespace pdc {
 
-/// What became of many attempts, each in a child process.
+/// What became of many attempts, in child processes.
 struct ForkedResult {
   std::size_t successes = 0, errors = 0;  ///< Attempts that returned, and that threw Error.
-  std::string failure;  ///< The first attempt that ended otherwise: by a signal, out of time, another exception.
+  std::string failure;       ///< The first attempt that ended otherwise: by a signal, out of time, another exception.
+  double longest = 0;        ///< Seconds that an attempt took at most.
+  double peakMegabytes = 0;  ///< Of memory, of a child or of what it started in turn.
 };
 
 namespace detail {
 
 struct ForkedState {
   std::size_t current, successes, errors;
+  double longest;
+  long peakKilobytes;
 };
 
 inline void limitChild() {
@@ -37,6 +42,16 @@ inline void limitChild() {
   ::setrlimit(RLIMIT_CORE, &noCore);
 }
 
+/// Notes what an attempt took that began then.
+inline void noteCosts(std::chrono::steady_clock::time_point begin, ForkedState& state) {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  state.longest = std::max(state.longest, passed.count());
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    if (::getrusage(who, &usage) == 0) state.peakKilobytes = std::max(state.peakKilobytes, usage.ru_maxrss);
+  }
+}
+
 [[noreturn]] inline void runChild(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& attempt,
                                   ForkedState& state) {
   constexpr unsigned kSeconds = 10;
@@ -44,6 +59,7 @@ inline void limitChild() {
   for (std::size_t i = begin; i < end; ++i) {
     state.current = i;
     ::alarm(kSeconds);
+    const auto start = std::chrono::steady_clock::now();
     try {
       attempt(i);
       ++state.successes;
@@ -52,6 +68,7 @@ inline void limitChild() {
     } catch (...) {
       ::_exit(1);
     }
+    noteCosts(start, state);
   }
   ::_exit(0);
 }
@@ -74,10 +91,14 @@ inline ForkedResult runForked(std::size_t count, std::size_t perChild,
     ::waitpid(child, &status, 0);
     const std::string which = "attempt " + std::to_string(state->current);
     if (WIFSIGNALED(status)) result.failure = which + " ended by signal " + std::to_string(WTERMSIG(status));
+    // Sanitizers end a process that way, too, after a report.
     if (WIFEXITED(status) && WEXITSTATUS(status) != 0) result.failure = which + " threw something that is no Error";
   }
   result.successes = state->successes;
   result.errors = state->errors;
+  result.longest = state->longest;
+  constexpr double kKilobytes = 1000;
+  result.peakMegabytes = static_cast<double>(state->peakKilobytes) / kKilobytes;
   ::munmap(state, sizeof(detail::ForkedState));
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
 
 #include "io/file/temporary_folder.h"
 #include "pdc/extract/contour.h"
@@ -60,7 +61,13 @@ void fuzzVolume(std::string_view bytes) {
   const TemporaryFolder folder;
   const auto path = folder / nameOfVolume(bytes);
   writeContents(path, bytes);
-  const DenseVolume volume = readVolume(path, {.volumeIndex = 0});
+  fuzzVolumeFile(path);
+}
+
+void fuzzVolumeFile(const std::filesystem::path& path) {
+  VolumeReadOptions options{.volumeIndex = 0};
+  if (path.filename().string().find(".raw") != std::string::npos) options.raw = parseRawVolume("10x10x10:i16");
+  const DenseVolume volume = readVolume(path, options);
   constexpr std::int64_t kMaxPoints = 1 << 18;
   if (volume.view.size[0] * volume.view.size[1] > kMaxPoints / volume.view.size[2]) return;
   contourAndCheck(DenseSource(volume.view, LatticeMap(volume.linear, volume.translation), {.acceptNonFinite = true}),

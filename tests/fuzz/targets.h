@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace pdc {
@@ -11,5 +12,7 @@ void fuzzScene(std::string_view bytes);
 void fuzzVdb(std::string_view bytes);
 /// Takes the bytes as the format that they begin as.
 void fuzzVolume(std::string_view bytes);
+/// Takes .raw and .raw.gz for 10 × 10 × 10 values of 16 bits.
+void fuzzVolumeFile(const std::filesystem::path& path);
 
 }  // namespace pdc
