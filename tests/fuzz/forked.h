@@ -11,8 +11,14 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "pdc/error.h"
+
+#ifdef PDC_SANITIZED
+#include <sanitizer/common_interface_defs.h>
+extern "C" [[gnu::weak]] const char* __asan_get_report_description();
+#endif
 
 namespace pdc {
 
@@ -27,7 +33,7 @@ struct ForkedResult {
 namespace detail {
 
 struct ForkedState {
-  std::size_t current, successes, errors;
+  std::size_t current, successes, errors, reports;
   double longest;
   long peakKilobytes;
 };
@@ -52,10 +58,26 @@ inline void noteCosts(std::chrono::steady_clock::time_point begin, ForkedState& 
   }
 }
 
+#ifdef PDC_SANITIZED
+inline ForkedState* reportingState = nullptr;
+/// Counts what sanitizers report in children of the children too, where it looks like a library that gave up. Memory
+/// that a limit refuses is no fault: sanitizers report it in the place of std::bad_alloc.
+inline void countReports(ForkedState& state) {
+  reportingState = &state;
+  ::__sanitizer_set_death_callback([] {
+    const std::string_view what = &::__asan_get_report_description == nullptr ? "" : ::__asan_get_report_description();
+    if (what != "out-of-memory") ++reportingState->reports;
+  });
+}
+#else
+inline void countReports(ForkedState& /*state*/) {}
+#endif
+
 [[noreturn]] inline void runChild(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& attempt,
                                   ForkedState& state) {
   constexpr unsigned kSeconds = 10;
   limitChild();
+  countReports(state);
   for (std::size_t i = begin; i < end; ++i) {
     state.current = i;
     ::alarm(kSeconds);
@@ -94,6 +116,8 @@ inline ForkedResult runForked(std::size_t count, std::size_t perChild,
     // Sanitizers end a process that way, too, after a report.
     if (WIFEXITED(status) && WEXITSTATUS(status) != 0) result.failure = which + " threw something that is no Error";
   }
+  if (state->reports > 0 && result.failure.empty())
+    result.failure = std::to_string(state->reports) + " reports of sanitizers";
   result.successes = state->successes;
   result.errors = state->errors;
   result.longest = state->longest;

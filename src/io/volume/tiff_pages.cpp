@@ -70,6 +70,18 @@ TiffFacts factsOf(TIFF* tiff) {
   return facts;
 }
 
+/// \throws Error if the pages have more values than the files can hold: before memory is taken for one.
+void checkHolds(const std::vector<std::filesystem::path>& files, const TiffFacts& facts) {
+  constexpr double kMostRatio = 4096;  // None of TIFF's codecs makes more of a byte.
+  double there = 0;
+  for (const std::filesystem::path& file : files) there += static_cast<double>(std::filesystem::file_size(file));
+  const double values =
+      static_cast<double>(facts.width * facts.samples) * static_cast<double>(facts.height * facts.pages);
+  const double bytes = values * static_cast<double>(facts.bits) / 8;
+  if (bytes > kMostRatio * there)
+    throw Error(fmt::format("ends early: the values take {:.0f} bytes, but only {:.0f} are there", bytes, there));
+}
+
 void addDetails(TIFF* tiff, TiffFacts& facts) {
   facts.xResolution = static_cast<double>(field<float>(tiff, TIFFTAG_XRESOLUTION, 0));
   facts.yResolution = static_cast<double>(field<float>(tiff, TIFFTAG_YRESOLUTION, 0));
@@ -142,6 +154,7 @@ void writeTiffPages(const std::vector<std::filesystem::path>& files, ChildOutput
     if (!complaint().empty()) throw damaged(files.front(), "damaged");
     if (TIFFSetDirectory(first.get(), 0) != 1) throw damaged(files.front(), "damaged");
   }
+  checkHolds(files, facts);
   out.write(&facts, sizeof(facts));
   Buffer<char> page;
   if (files.size() == 1) {

@@ -21,8 +21,8 @@ struct TiffFacts {
 };
 
 /// Writes TiffFacts, then the values of all pages, rows from the top, in the machine's byte order: all pages of a
-/// single file, the first one of each of several. \throws Error for damaged files, for pages that differ, and where
-/// this build has no libtiff.
+/// single file, the first one of each of several. \throws Error for damaged files, for more values than they can hold,
+/// for pages that differ, and where this build has no libtiff.
 void writeTiffPages(const std::vector<std::filesystem::path>& files, ChildOutput& out);
 
 }  // namespace pdc::detail

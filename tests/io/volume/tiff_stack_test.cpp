@@ -88,6 +88,13 @@ TEST_F(TiffStack, DamagedFilesAreOneLine) {
   EXPECT_THROW(static_cast<void>(readVolume(write(whole), {}, {.stop = &stop})), Cancelled);
 }
 
+TEST_F(TiffStack, FewBytesCannotHoldLargePages) {
+  TiffPages pages(false, 16);
+  pages.add(std::int64_t{1} << 20, std::int64_t{1} << 16, "few");
+  const std::string error = errorOfReading(write(pages.bytes()));
+  EXPECT_NE(error.find("ends early: the values take 137438953472 bytes"), std::string::npos) << error;
+}
+
 TEST(ChildStream, CrashesAndErrorsOfTheChildAreErrorsHere) {
   std::string bytes(3, '\0');
   const auto errorOf = [&](const std::function<void(detail::ChildOutput&)>& work) -> std::string {
