@@ -1,7 +1,7 @@
 #include <openvdb/openvdb.h>
 #include <pybind11/pybind11.h>
 
-#include "groups.h"
+#include "groups/groups.h"
 #include "pdc/error.h"
 
 PYBIND11_MODULE(_core, module) {

@@ -23,6 +23,7 @@ declare -A room_of=(
   [io/file]=0 [io/deflate]=1 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=2 [io/scene]=4 [io/points]=4 [io]=5
   [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps/commands/points]=4
   [apps]=5
+  [python/inputs]=0 [python/groups]=1 [python]=2
 )
 
 # Sets `floor`, `room` and `rank` to those of a path below include/pdc or src, or of the text of an #include: by its
@@ -38,9 +39,10 @@ find_place() {
   elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == reports || "$top" == commands ]]; then
     floor=$apps
     [[ "$top" == apps ]] || room=apps/$folder
-  elif [[ "$top" == python ]]; then
+  elif [[ "$top" == python || "$top" == inputs || "$top" == groups ]]; then
     floor=$python
-    room=python
+    room=python/${folder#python/src/}
+    [[ "$folder" != python/* || "$folder" == python/src/* ]] || room=python
   elif [[ -n "${floor_of[$top]-}" ]]; then
     floor=${floor_of[$top]}
   else

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "convert.h"
-#include "grid.h"
-#include "groups.h"
+#include "groups/groups.h"
+#include "inputs/grid_handle.h"
 #include "pdc/error.h"
 #include "pdc/io/vdb/vdb_reader.h"
 #include "pdc/io/vdb/vdb_writer.h"

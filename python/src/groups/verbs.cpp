@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "convert.h"
-#include "groups.h"
+#include "groups/groups.h"
 #include "parallel/with_threads.h"
 #include "pdc/mesh/triangulate_polygons.h"
 #include "pdc/simplify/cluster.h"

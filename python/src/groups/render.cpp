@@ -10,7 +10,7 @@
 #include <string>
 
 #include "convert.h"
-#include "groups.h"
+#include "groups/groups.h"
 #include "pdc/io/png_writer.h"
 #include "polite_run.h"
 

@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "contour_run.h"
 #include "convert.h"
-#include "groups.h"
-#include "inputs.h"
+#include "groups/groups.h"
+#include "inputs/contour_run.h"
+#include "inputs/open_source.h"
+#include "inputs/request.h"
 #include "polite_run.h"
-#include "request.h"
 
 namespace pdc::python {
 namespace {

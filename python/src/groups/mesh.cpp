@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "convert.h"
-#include "groups.h"
+#include "groups/groups.h"
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "polite_run.h"

@@ -2,7 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "convert.h"
-#include "groups.h"
+#include "groups/groups.h"
 #include "parallel/with_threads.h"
 #include "polite_run.h"
 #include "reports/check_facts.h"

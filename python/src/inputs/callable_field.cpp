@@ -1,4 +1,4 @@
-#include "callable_field.h"
+#include "inputs/callable_field.h"
 
 #include <pybind11/numpy.h>
 

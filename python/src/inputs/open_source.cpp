@@ -1,4 +1,4 @@
-#include "inputs.h"
+#include "inputs/open_source.h"
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -12,9 +12,9 @@
 #include <string>
 #include <utility>
 
-#include "callable_field.h"
-#include "dense_array.h"
-#include "grid.h"
+#include "inputs/callable_field.h"
+#include "inputs/dense_array.h"
+#include "inputs/grid_handle.h"
 #include "io/vdb/grid_warnings.h"
 #include "pdc/sample/dense/dense_source.h"
 #include "pdc/sample/implicit/field_source.h"

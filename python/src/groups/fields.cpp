@@ -6,9 +6,9 @@
 #include <array>
 #include <utility>
 
-#include "callable_field.h"
 #include "convert.h"
-#include "groups.h"
+#include "groups/groups.h"
+#include "inputs/callable_field.h"
 #include "pdc/field/formula.h"
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "convert.h"
-#include "groups.h"
-#include "inputs.h"
+#include "groups/groups.h"
+#include "inputs/open_source.h"
+#include "inputs/request.h"
 #include "pdc/sample/crease_points.h"
 #include "pdc/study/sweep_writer.h"
 #include "polite_run.h"
-#include "request.h"
 
 namespace pdc::python {
 namespace {

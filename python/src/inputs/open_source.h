@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "contour_run.h"
+#include "inputs/contour_run.h"
 
 namespace pdc::python {
 

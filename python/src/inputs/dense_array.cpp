@@ -1,4 +1,4 @@
-#include "dense_array.h"
+#include "inputs/dense_array.h"
 
 #include <bit>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "request.h"
+#include "inputs/request.h"
 
 #include <array>
 #include <string>

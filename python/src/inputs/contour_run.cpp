@@ -1,4 +1,4 @@
-#include "contour_run.h"
+#include "inputs/contour_run.h"
 
 #include <fmt/format.h>
 
