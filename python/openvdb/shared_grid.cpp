@@ -14,16 +14,26 @@ void release(PyObject* capsule) {
   delete static_cast<openvdb::GridBase::Ptr*>(PyCapsule_GetPointer(capsule, kCapsule));
 }
 
+/// Shares a grid that a Python object owns, which lives as long.
+openvdb::GridBase::Ptr lend(openvdb::GridBase& grid, PyObject* owner) {
+  Py_INCREF(owner);
+  return {&grid, [owner](openvdb::GridBase*) {
+            const PyGILState_STATE state = PyGILState_Ensure();
+            Py_DECREF(owner);
+            PyGILState_Release(state);
+          }};
+}
+
 template <typename... GridT>
 openvdb::GridBase::Ptr extract(PyObject* object, openvdb::TypeList<GridT...>) {
-  openvdb::GridBase::Ptr grid;
+  openvdb::GridBase* grid = nullptr;
   const auto tryType = [&](auto* type) {
     using Grid = std::remove_pointer_t<decltype(type)>;
-    const boost::python::extract<typename Grid::Ptr> found(object);
-    if (!grid && found.check()) grid = found();
+    const boost::python::extract<Grid&> found(object);
+    if (grid == nullptr && found.check()) grid = &found();
   };
   (tryType(static_cast<GridT*>(nullptr)), ...);
-  return grid;
+  return grid == nullptr ? nullptr : lend(*grid, object);
 }
 
 /// A capsule that shares the grid, or None for what is no grid of scalars of pyopenvdb.
