@@ -113,7 +113,7 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
     const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
     mesh = contour(*input.source, run.options, &run.contour, {.progress = show, .stop = &interruptFlag()});
   }
-  addAttributes(input, mesh);
+  addAttributes(input, mesh, {.progress = {}, .stop = &interruptFlag()});
   run.secondsContour = stopwatch.lap();
   checkSurface(request, input, mesh, run);
   for (const std::string& warning : meshWarnings(input, mesh, {})) warn(run, warning);

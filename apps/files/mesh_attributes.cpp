@@ -7,7 +7,6 @@
 #include "io/parse/ply_columns.h"
 #include "pdc/error.h"
 #include "pdc/sample/vdb/grid_attribute.h"
-#include "terminal/interrupt.h"
 
 namespace pdc {
 
@@ -22,10 +21,9 @@ void checkAttributes(const Input& input, const std::vector<std::string>& taken) 
                                   column));
 }
 
-void addAttributes(const Input& input, Mesh& mesh) {
+void addAttributes(const Input& input, Mesh& mesh, const Monitor& monitor) {
   for (const InputAttribute& attribute : input.attributes)
-    for (VertexProperty& property :
-         gridAttribute(*attribute.grid, attribute.name, mesh, {.progress = {}, .stop = &interruptFlag()}))
+    for (VertexProperty& property : gridAttribute(*attribute.grid, attribute.name, mesh, monitor))
       mesh.properties.push_back(std::move(property));
 }
 

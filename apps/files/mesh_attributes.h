@@ -15,7 +15,7 @@ namespace pdc {
 void checkAttributes(const Input& input, const std::vector<std::string>& taken);
 
 /// Gives a mesh's vertices the attributes of its input. \throws Cancelled.
-void addAttributes(const Input& input, Mesh& mesh);
+void addAttributes(const Input& input, Mesh& mesh, const Monitor& monitor);
 
 /// What vertices have that a file by its suffix cannot hold: names, separated by commas. Empty if it can.
 [[nodiscard]] std::string lostProperties(const Mesh& mesh, const std::filesystem::path& path);

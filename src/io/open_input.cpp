@@ -12,7 +12,6 @@
 #include "pdc/error.h"
 #include "pdc/io/scene/scene_reader.h"
 #include "pdc/io/vdb/vdb_reader.h"
-#include "pdc/sample/dense/value_histogram.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/vdb/grid_function.h"
 
@@ -146,10 +145,6 @@ void readAttributes(const fs::path& path, const InputOptions& options, Input& in
   }
 }
 
-InputVolume describe(const DenseVolume& volume) {
-  return {volume.format, volume.encoding, volume.space, volume.unit, volume.orientation, volume.view.size};
-}
-
 /// A grid and what came of the steps. Without steps readMeaning() has the file's own grid, and all that it doubts.
 Input openProcessed(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
   const bool dense = !options.meshToLevelSet && inputKind(path, options) == InputKind::kVolume;
@@ -178,7 +173,7 @@ Input openProcessed(const fs::path& path, const InputOptions& options, const Mon
   input.warnings = std::move(processed.warnings);
   input.whyEmpty = [iso = input.iso] { return fmt::format("the grid has no surface at iso {} after the steps", iso); };
   input.source = std::move(source);
-  if (processed.volumeFile) input.volume = describe(*processed.volumeFile);
+  if (processed.volumeFile) input.volume = detail::describe(*processed.volumeFile);
   if (options.meshToLevelSet || dense) return input;
   if (const auto scale = readCompanion(path, options.adaptiveGrid, *volume.grid, "adaptive"))
     input.adaptiveScale = gridFunction(scale);
@@ -217,33 +212,16 @@ Input openGrid(const fs::path& path, const InputOptions& options) {
 
 Input openDense(const fs::path& path, const InputOptions& options, const Monitor& monitor) {
   checkVolumeOptions(path, options);
-  detail::OpenedVolume opened = detail::openVolume(path,
-                                                   {.read = options.volume,
-                                                    .source = {.iso = options.iso,
-                                                               .open = options.open,
-                                                               .acceptNonFinite = options.acceptNonFinite,
-                                                               .hermite = options.hermite,
-                                                               .gridClass = options.gridClass,
-                                                               .inside = options.inside},
-                                                    .isoFromOtsu = options.isoFromOtsu},
-                                                   monitor);
-  const DenseSource& source = *opened.source;
-  Input input;
-  input.iso = source.iso();
-  input.planeOrigin = source.usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
-  input.valueNoise = source.valueNoise();
-  input.meaning = source.meaning();
-  input.volume = describe(opened.volume);
-  input.warnings = std::move(opened.warnings);
-  input.whyEmpty = [view = opened.volume.view, owner = opened.volume.owner, iso = input.iso] {
-    const ValueHistogram values = valueHistogram(view, 1);
-    if (values.finite > 0 && (iso < values.lowest || iso > values.highest))
-      return fmt::format("iso {} is outside of the volume's values, {:.6g} to {:.6g}", iso, values.lowest,
-                         values.highest);
-    return fmt::format("the volume has no surface at iso {}", iso);
-  };
-  input.source = std::move(opened.source);
-  return input;
+  return detail::inputOf(detail::openVolume(path,
+                                            {.read = options.volume,
+                                             .source = {.iso = options.iso,
+                                                        .open = options.open,
+                                                        .acceptNonFinite = options.acceptNonFinite,
+                                                        .hermite = options.hermite,
+                                                        .gridClass = options.gridClass,
+                                                        .inside = options.inside},
+                                             .isoFromOtsu = options.isoFromOtsu},
+                                            monitor));
 }
 
 double longestSide(const Box& box) {

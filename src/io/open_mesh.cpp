@@ -73,9 +73,9 @@ Input openMoved(const Mesh& mesh, const MeshSource& plain, const InputOptions& o
   return input;
 }
 
-Input open(const std::filesystem::path& path, const InputOptions& options, const Monitor& monitor) {
-  std::vector<std::string> warnings;
-  const Mesh mesh = readMesh(path, {.warn = [&](const std::string& line) { warnings.push_back(line); }});
+}  // namespace
+
+Input openMesh(const Mesh& mesh, const InputOptions& options, const Monitor& monitor) {
   if (mesh.empty()) throw Error("the mesh has no faces");
   const double voxelSize = voxelSizeFor(mesh, options);
   auto source = std::make_unique<MeshSource>(mesh, MeshSourceOptions{.voxelSize = voxelSize}, monitor);
@@ -91,15 +91,16 @@ Input open(const std::filesystem::path& path, const InputOptions& options, const
   }
   input.sigmaNormal = kMeshSigmaNormal;
   input.mesh = {.triangles = facts.triangles, .openEdges = facts.openEdges, .voxelSize = voxelSize};
-  input.warnings.insert(input.warnings.begin(), warnings.begin(), warnings.end());
   return input;
 }
 
-}  // namespace
-
 Input openMesh(const std::filesystem::path& path, const InputOptions& options, const Monitor& monitor) {
   try {
-    return open(path, options, monitor);
+    std::vector<std::string> warnings;
+    const Mesh mesh = readMesh(path, {.warn = [&](const std::string& line) { warnings.push_back(line); }});
+    Input input = openMesh(mesh, options, monitor);
+    input.warnings.insert(input.warnings.begin(), warnings.begin(), warnings.end());
+    return input;
   } catch (const Error& error) {
     const std::string what = error.what();
     if (what.find(path.string()) != std::string::npos) throw;

@@ -38,7 +38,9 @@ std::vector<std::string> volumeWarnings(GridMeaning meaning) {
   return lines;
 }
 
-OpenedVolume open(DenseVolume volume, const OpenVolumeOptions& options, const Monitor& monitor) {
+}  // namespace
+
+OpenedVolume openVolume(DenseVolume volume, const OpenVolumeOptions& options, const Monitor& monitor) {
   DenseSourceOptions source = options.source;
   if (options.isoFromOtsu) {
     const auto threshold = otsuThreshold(volume.view, monitor);
@@ -53,15 +55,39 @@ OpenedVolume open(DenseVolume volume, const OpenVolumeOptions& options, const Mo
   return opened;
 }
 
-}  // namespace
-
 OpenedVolume openVolume(const std::filesystem::path& path, const OpenVolumeOptions& options, const Monitor& monitor) {
   DenseVolume volume = readVolume(path, options.read, monitor);
   try {
-    return open(std::move(volume), options, monitor);
+    return openVolume(std::move(volume), options, monitor);
   } catch (const Error& error) {
     throw fileError(path, error.what());
   }
+}
+
+Input inputOf(OpenedVolume opened) {
+  const DenseSource& source = *opened.source;
+  const DenseVolume& volume = opened.volume;
+  Input input;
+  input.iso = source.iso();
+  input.planeOrigin = source.usesDistances() ? PlaneOrigin::kDistance : PlaneOrigin::kGradient;
+  input.valueNoise = source.valueNoise();
+  input.refusedNoise = source.refusedNoise();
+  input.meaning = source.meaning();
+  input.volume = describe(volume);
+  input.warnings = std::move(opened.warnings);
+  input.whyEmpty = [view = volume.view, owner = volume.owner, iso = input.iso] {
+    const ValueHistogram values = valueHistogram(view, 1);
+    if (values.finite > 0 && (iso < values.lowest || iso > values.highest))
+      return fmt::format("iso {} is outside of the volume's values, {:.6g} to {:.6g}", iso, values.lowest,
+                         values.highest);
+    return fmt::format("the volume has no surface at iso {}", iso);
+  };
+  input.source = std::move(opened.source);
+  return input;
+}
+
+InputVolume describe(const DenseVolume& volume) {
+  return {volume.format, volume.encoding, volume.space, volume.unit, volume.orientation, volume.view.size};
 }
 
 }  // namespace pdc::detail

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pdc/io/open_input.h"
 #include "pdc/io/volume/volume_reader.h"
 #include "pdc/monitor.h"
 #include "pdc/sample/dense/dense_source.h"
@@ -29,5 +30,13 @@ struct OpenedVolume {
 /// \throws Error, with the file's name before it, as readVolume(), otsuThreshold() and DenseSource do; Cancelled.
 [[nodiscard]] OpenedVolume openVolume(const std::filesystem::path& path, const OpenVolumeOptions& options,
                                       const Monitor& monitor);
+
+/// The same of a volume that has been read already.
+[[nodiscard]] OpenedVolume openVolume(DenseVolume volume, const OpenVolumeOptions& options, const Monitor& monitor);
+
+/// What a contour of it takes.
+[[nodiscard]] Input inputOf(OpenedVolume opened);
+
+[[nodiscard]] InputVolume describe(const DenseVolume& volume);
 
 }  // namespace pdc::detail

@@ -10,6 +10,7 @@
 #include "parallel/stopwatch.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/points/points_reader.h"
+#include "reports/points_report.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
 #include "terminal/shown_path.h"

@@ -41,18 +41,6 @@ MixtureOptions mixtureOptions(const MixtureRequest& request) {
   return options;
 }
 
-nlohmann::ordered_json toJson(const MixtureReport& report) {
-  auto levels = nlohmann::ordered_json::array();
-  for (const MixtureLevelReport& level : report.levels)
-    levels.push_back({{"gaussians_before", level.before},
-                      {"gaussians", level.after},
-                      {"parents", level.parents},
-                      {"kept", level.kept},
-                      {"clamped", level.clamped},
-                      {"log_likelihood", level.logLikelihood}});
-  return {{"points", report.points}, {"duplicates", report.duplicates}, {"sigma0", report.sigma0}, {"levels", levels}};
-}
-
 PointCloud readPointsFile(const std::filesystem::path& path, bool quiet, std::vector<std::string>& warnings) {
   const ExitOnInterrupt scope;
   const BusySign sign(!quiet, "reading " + path.filename().string());

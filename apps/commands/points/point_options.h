@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +20,6 @@ void addMixtureOptions(CLI::App& command, MixtureRequest& request);
 
 /// The request with defaults for what it does not say.
 [[nodiscard]] MixtureOptions mixtureOptions(const MixtureRequest& request);
-
-[[nodiscard]] nlohmann::ordered_json toJson(const MixtureReport& report);
 
 /// Reads points with a sign that it is at work, unless `quiet`, and puts warnings into `warnings` and, unless `quiet`,
 /// on standard error. \throws Error.

@@ -11,6 +11,7 @@
 #include "parallel/stopwatch.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "pdc/io/points/points_reader.h"
+#include "reports/points_report.h"
 #include "terminal/make_with_bar.h"
 #include "terminal/numbers.h"
 #include "terminal/shown_path.h"
@@ -28,39 +29,23 @@ struct ReconstructRun {
   std::vector<std::string> warnings;
 };
 
-Json toJson(const TriangulateReport& report) {
-  return {{"seeds", report.seeds},
-          {"components", report.components},
-          {"boundary_loops", report.boundaryLoops},
-          {"refused_non_manifold", report.nonManifoldRefused},
-          {"refused_overlapping", report.overlappingRefused},
-          {"split_vertices", report.splitVertices},
-          {"filled_loops", report.filledLoops},
-          {"added_vertices", report.addedVertices},
-          {"dropped_triangles", report.droppedTriangles},
-          {"unused_gaussians", report.unusedGaussians}};
-}
-
 Json toJson(const ReconstructRequest& request, const ReconstructRun& run) {
   const ReconstructReport& r = run.report;
-  return {{"input", shownPath(request.input)},
-          {"output", shownPath(request.output)},
-          {"mixture", toJson(r.mixture)},
-          {"gaussians", r.gaussians},
-          {"triangulation", toJson(r.triangulation)},
-          {"control_triangles", r.controlTriangles},
-          {"vertices", run.vertices},
-          {"triangles", run.triangles},
-          {"bytes", run.bytesWritten},
-          {"covariance_mesh_bytes", run.covarianceBytes},
-          {"seconds",
-           {{"read", run.secondsRead},
-            {"mixture", r.secondsMixture},
-            {"triangulate", r.secondsTriangulate},
-            {"subdivide", r.secondsSubdivide},
-            {"contour", r.secondsContour},
-            {"write", run.secondsWrite}}},
-          {"warnings", run.warnings}};
+  Json json{{"input", shownPath(request.input)}, {"output", shownPath(request.output)}};
+  json.update(toJson(r));
+  json.update({{"vertices", run.vertices},
+               {"triangles", run.triangles},
+               {"bytes", run.bytesWritten},
+               {"covariance_mesh_bytes", run.covarianceBytes},
+               {"seconds",
+                {{"read", run.secondsRead},
+                 {"mixture", r.secondsMixture},
+                 {"triangulate", r.secondsTriangulate},
+                 {"subdivide", r.secondsSubdivide},
+                 {"contour", r.secondsContour},
+                 {"write", run.secondsWrite}}},
+               {"warnings", run.warnings}});
+  return json;
 }
 
 void printSummary(const ReconstructRequest& request, const ReconstructRun& run) {
