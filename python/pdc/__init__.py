@@ -1,6 +1,6 @@
 """Volumes to meshes by probabilistic dual contouring.
 
-Arrays, OpenVDB grids, implicit functions and scene files in; quads or triangles out, with sharp edges and corners where
+Arrays, volumes, OpenVDB grids, implicit functions, meshes, points and scenes in; quads or triangles out, with sharp edges and corners where
 the volume has them.
 
 >>> import numpy as np, pdc
@@ -27,6 +27,7 @@ from ._field import (
     function,
     gyroid,
     intersection,
+    mesh_field,
     plane,
     rounded_box,
     simplex_noise,
@@ -35,12 +36,25 @@ from ._field import (
     union,
 )
 from ._grid import Grid, read_grid
-from ._mesh import Mesh, read_mesh, render, write_png
+from ._mesh import Mesh, read_mesh
+from ._points import mixture, reconstruct
+from ._render import render, write_png
 from ._scene import Scene, scene
 from ._verbs import cluster, decimate, smooth, subdivide
+from ._volume import Volume, read_volume
 
 __version__: str = _core.version
 Error.__module__ = "pdc"
+Error.__doc__ = """Data or a request that cannot be served, in one line: what, the value, the limit.
+
+Examples
+--------
+>>> try:
+...     pdc.read_mesh("missing.ply")
+... except pdc.Error as error:
+...     print(error)
+missing.ply: cannot be read: No such file or directory
+"""
 
 __all__ = [
     "Check",
@@ -49,6 +63,7 @@ __all__ = [
     "Grid",
     "Mesh",
     "Scene",
+    "Volume",
     "Warning",
     "box",
     "capped_cone",
@@ -65,9 +80,13 @@ __all__ = [
     "gyroid",
     "info",
     "intersection",
+    "mesh_field",
+    "mixture",
     "plane",
     "read_grid",
     "read_mesh",
+    "read_volume",
+    "reconstruct",
     "render",
     "rounded_box",
     "scene",

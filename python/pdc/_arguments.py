@@ -16,7 +16,21 @@ Triple = Tuple[float, float, float]
 
 
 class Warning(UserWarning):
-    """What pdc found odd in the data, such as a volume without a surface."""
+    """What pdc found odd in the data, such as a volume without a surface.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", pdc.Warning)
+    ...     pdc.contour(np.ones((4, 4, 4)), 2)
+    Traceback (most recent call last):
+    ...
+    pdc.Warning: the volume has no surface at level 2; the mesh is empty
+    """
+
+
+Warning.__module__ = "pdc"
 
 
 def warn(lines: abc.Iterable[str], level: int = 3) -> None:
@@ -71,6 +85,20 @@ def triple(name: str, value: Any, *, above: float = -math.inf) -> Triple:
     return (x, y, z)
 
 
+def corners_of(name: str, box: Any) -> Tuple[Triple, Triple]:
+    """Two corners of a box, or the edge of a cube about the origin."""
+    if np.ndim(box) == 0:
+        half = number(name, box, above=0) / 2
+        return (-half, -half, -half), (half, half, half)
+    if len(box) != 2:
+        raise ValueError(f"{name} must be two corners, or the edge of a cube about the origin, not {box!r}")
+    lo, hi = triple(f"{name}[0]", box[0]), triple(f"{name}[1]", box[1])
+    for axis, low, high in zip("xyz", lo, hi):
+        if not low < high:
+            raise ValueError(f"{name} must not be empty: it goes from {low:g} to {high:g} along {axis}")
+    return lo, hi
+
+
 def callback(progress: Any) -> Progress:
     """A function that hears of progress, or None."""
     if progress is not None and not callable(progress):
@@ -119,6 +147,11 @@ def affine_of(spacing: Any, origin: Any, affine: Any) -> npt.NDArray[np.float64]
     if origin is not None:
         result[:3, 3] = triple("origin", origin)
     return result
+
+
+def is_path(value: Any) -> bool:
+    """Whether this names a file."""
+    return isinstance(value, (str, bytes)) or hasattr(value, "__fspath__")
 
 
 def path_text(name: str, value: Any) -> str:

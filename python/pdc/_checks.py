@@ -19,6 +19,12 @@ class Check(abc.Mapping[str, Any]):
         True if there are no faults.
     faults : list of str
         The names of the facts that are faults.
+
+    Examples
+    --------
+    >>> found = pdc.check(pdc.contour(pdc.sphere(1), box=2.5, resolution=16))
+    >>> found, found["euler_number"], "boundary_edges" in found
+    (<pdc.Check: clean>, 2, True)
     """
 
     __slots__ = ("_facts",)
@@ -85,7 +91,7 @@ def check(
 
 
 def info(path: Path) -> Dict[str, Any]:
-    """What is in a file of meshes or grids, or a scene: what `pdc info --json` says.
+    """What is in a file of meshes, volumes or grids, or a scene: what `pdc info --json` says.
 
     Parameters
     ----------

@@ -10,33 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import (
-    Progress,
-    affine_of,
-    callback,
-    flag,
-    integer,
-    number,
-    numeric_array,
-    optional_number,
-    path_text,
-    sigma_normal as checked_sigma_normal,
-    thread_count,
-    triple,
-    warn,
-    word,
-)
-from ._field import Field, function
-from ._grid import Grid, borrowed, is_openvdb
-from ._mesh import Mesh, Path
-from ._scene import Scene
-
-Volume = Union[npt.ArrayLike, Grid, Field, Scene, Path, Callable[[npt.NDArray[np.float64]], npt.ArrayLike]]
-_MAX_VOXELS = 1 << 20
+from ._arguments import Progress, callback, number, warn, word
+from ._mesh import Mesh
+from ._source import GIVEN, Input, options_of, source_of
 
 
 def contour(
-    volume: Volume,
+    volume: Input,
     level: Union[None, str, float] = None,
     *,
     spacing: Any = None,
@@ -48,6 +28,7 @@ def contour(
     sigma: Any = None,
     weight: Any = None,
     mask: Optional[npt.ArrayLike] = None,
+    attributes: Any = None,
     placement: str = "certified",
     hermite: str = "auto",
     open: bool = False,
@@ -57,11 +38,20 @@ def contour(
     confidence: bool = False,
     rank: bool = False,
     adaptive: Union[None, str, float] = None,
+    adaptive_scale: Any = None,
     nan: str = "error",
     box: Any = None,
     voxel_size: Optional[float] = None,
     resolution: Optional[int] = None,
+    offset: Optional[float] = None,
+    shell: Optional[float] = None,
     grid: Optional[str] = None,
+    raw: Optional[str] = None,
+    array: Optional[str] = None,
+    series: Union[None, str, int] = None,
+    volume_index: Optional[int] = None,
+    channel: Optional[int] = None,
+    space: Optional[str] = None,
     mesh_origin: Any = None,
     max_memory: int = 0,
     threads: int = 0,
@@ -78,16 +68,19 @@ def contour(
     volume
         - An array of bool, integers or floats, shape (nx, ny, nz), indexed [x, y, z], of any strides and byte order. It
           is read where it lies, and must not change meanwhile.
+        - A pdc.Volume, or the path of its file: see read_volume().
         - A pdc.Grid, or a grid of pyopenvdb or openvdb.
+        - A pdc.Mesh, whose solid is meshed anew: closed, manifold, creases kept; see docs/meshes_in.md.
         - A pdc.Field, or a function of points of shape (n, 3) to values as pdc.function() takes one; needs `box`, and
           `voxel_size` or `resolution`.
-        - A pdc.Scene, or the path of a file that the program takes.
+        - A pdc.Scene.
+        - The path of a file that the program takes: volumes, .vdb, meshes, scenes. A folder of slices is one.
     level : float or "otsu", optional
-        In the volume's units. "otsu": between the two kinds of values that Otsu's method finds, for arrays. Default: 0
-        for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5 for fog volumes, what a scene
-        says.
+        In the volume's units. "otsu": between the two kinds of values that Otsu's method finds, for arrays and volumes.
+        Default: 0 for arrays; what the program takes otherwise: 0 for level sets and fields, 0.5 for fog volumes, what
+        the values of a volume or a scene say.
     spacing : float or three, optional
-        For arrays: steps between values in world units. Default 1.
+        For arrays: steps between values in world units. Default 1. For files of volumes: instead of the file's.
     origin : three floats, optional
         For arrays: where the first value is. Default 0, 0, 0.
     affine : array, shape (4, 4) or (3, 4), optional
@@ -104,6 +97,9 @@ def contour(
         of its grids.
     mask : array, optional
         For arrays: False is no data.
+    attributes : mapping of names to Grids, optional
+        The mesh gets what they hold at its vertices, as properties of these names; see docs/attributes.md. For a .vdb
+        file also a list of names of its grids, or "all".
     placement : "certified", "cell" or "free"
         Where vertices may lie; without "free" no faces intersect.
     hermite : "auto", "gradient" or "distance"
@@ -118,16 +114,24 @@ def contour(
         Also normals, the properties "confidence" and "sigma", and the property "rank".
     adaptive : float or str, optional
         Fewer faces: no point farther than this from the full mesh or back, in world units, or in voxels as "0.1v".
+    adaptive_scale : Grid, optional
+        By which that distance is multiplied from place to place: 1 keeps it. For a .vdb file also the name of a grid.
     nan : "error" or "outside"
         What NaN and infinite values are.
     box : float, or pair of three floats, optional
         Where fields are looked at: two corners, or the edge of a cube about the origin. A scene has its own.
     voxel_size : float, optional
-        The lattice of fields and scenes, in world units.
+        The lattice of fields, scenes and meshes, in world units.
     resolution : int, optional
-        The same as voxels along the longest side of the box.
+        The same as voxels along the longest side of the box. Default for meshes: 128.
+    offset : float, optional
+        For meshes, and for level sets in files: the surface goes outwards by this, or inwards below 0, in world units.
+    shell : float, optional
+        For meshes: only a wall of this thickness is left, inwards from the surface.
     grid : str, optional
         Which grid of a .vdb file.
+    raw, array, series, volume_index, channel, space
+        For files of volumes, as for read_volume().
     mesh_origin : three floats or "auto", optional
         Subtracted from coordinates; "auto": near the surface if that is too far out for single precision. Default 0.
     max_memory : int
@@ -159,7 +163,7 @@ def contour(
     >>> pdc.contour(part, box=2.4, resolution=32).report["boundary_edges"]
     0
     """
-    options = _options(
+    options = options_of(
         level=level,
         inside=inside,
         grid_class=grid_class,
@@ -176,6 +180,8 @@ def contour(
         nan=nan,
         voxel_size=voxel_size,
         resolution=resolution,
+        offset=offset,
+        shell=shell,
         grid=grid,
         mesh_origin=mesh_origin,
         max_memory=max_memory,
@@ -188,176 +194,24 @@ def contour(
         "sigma": sigma,
         "weight": weight,
         "mask": mask,
+        "attributes": attributes,
+        "adaptive_scale": adaptive_scale,
         "box": box,
+        "raw": raw,
+        "array": array,
+        "series": series,
+        "volume_index": volume_index,
+        "channel": channel,
+        "space": space,
     }
-    source, chosen = _source(volume, given, options)
+    source, chosen = source_of(volume, given, options)
     core, report = _core.contour(source, chosen, callback(progress))
     warn(report["warnings"])
     return Mesh._of(core, report)
 
 
-def _options(**given: Any) -> Dict[str, Any]:
-    """The options that are given, checked."""
-    options = dict(given)
-    if given["level"] != "otsu":
-        options["level"] = optional_number("level", given["level"])
-    for name, words in (
-        ("inside", ("low", "high")),
-        ("grid_class", ("level-set", "fog")),
-        ("placement", ("certified", "cell", "free")),
-        ("hermite", ("auto", "gradient", "distance")),
-        ("nan", ("error", "outside")),
-    ):
-        if given[name] is not None:
-            options[name] = word(name, given[name], words)
-    options["sigma_normal"] = checked_sigma_normal(given["sigma_normal"])
-    for name in ("open", "flood_fill", "triangles", "normals", "confidence", "rank"):
-        options[name] = flag(name, given[name])
-    options["adaptive"] = _adaptive(given["adaptive"])
-    options["voxel_size"] = optional_number("voxel_size", given["voxel_size"], above=0)
-    if given["resolution"] is not None:
-        options["resolution"] = integer("resolution", given["resolution"], 1, _MAX_VOXELS)
-        if given["voxel_size"] is not None:
-            raise ValueError("voxel_size excludes resolution")
-    if given["mesh_origin"] is not None and given["mesh_origin"] != "auto":
-        options["mesh_origin"] = triple("mesh_origin", given["mesh_origin"])
-    options["max_memory"] = integer("max_memory", given["max_memory"], 0, 2**63 - 1)
-    options["threads"] = thread_count(given["threads"])
-    return {name: value for name, value in options.items() if value is not None}
-
-
-def _adaptive(value: Any) -> Optional[Tuple[float, bool]]:
-    if value is None:
-        return None
-    in_voxels = isinstance(value, str) and value.endswith("v")
-    try:
-        length = float(value[:-1] if in_voxels else value)
-    except ValueError:
-        raise ValueError(f"adaptive must be a length, or voxels as '0.1v', not {value!r}") from None
-    return number("adaptive", length, above=0), in_voxels
-
-
-Source = Tuple[Any, ...]
-_Given = Dict[str, Any]
-
-
-def _source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
-    """What is contoured, as the module of C++ takes it."""
-    if isinstance(volume, Scene):
-        return _field_source(volume.field, given, options, volume)
-    if isinstance(volume, Field):
-        return _field_source(volume, given, options, None)
-    if isinstance(volume, Grid) or is_openvdb(volume):
-        return _grid_source(volume, given, options)
-    if isinstance(volume, (str, bytes)) or hasattr(volume, "__fspath__"):
-        return _file_source(volume, given, options)
-    if callable(volume) and not hasattr(volume, "__array__"):
-        return _field_source(function(volume), given, options, None)
-    return _array_source(volume, given, options)
-
-
-def _refuse(given: _Given, names: abc.Sequence[str], takers: str) -> None:
-    for name in names:
-        if given.get(name) is not None and given[name] is not False:
-            raise ValueError(f"{name} goes with {takers} only")
-
-
-def _array_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
-    _refuse({**given, **options}, ("box", "voxel_size", "resolution"), "fields and scenes")
-    _refuse(options, ("grid", "flood_fill"), "grids")
-    values = numeric_array("volume", volume)
-    companions: List[Any] = []
-    for name in ("sigma", "weight", "mask"):
-        companion = given[name]
-        if companion is not None:
-            companion = numeric_array(name, companion)
-            if companion.shape != values.shape:
-                raise ValueError(f"{name} must have the volume's shape {values.shape}, not {companion.shape}")
-        companions.append(companion)
-    matrix = affine_of(given["spacing"], given["origin"], given["affine"])
-    chosen: Dict[str, Any] = {"level": 0.0, **options}
-    if chosen["level"] == "otsu":
-        # The program's own choice where a volume is no level set.
-        del chosen["level"]
-        chosen.setdefault("grid_class", "fog")
-    return ("array", values, matrix, *companions), chosen
-
-
-def _refuse_otsu(options: Dict[str, Any]) -> None:
-    if options.get("level") == "otsu":
-        raise ValueError("level 'otsu' goes with arrays only")
-
-
-def _grid_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
-    _refuse_otsu(options)
-    _refuse(given, ("spacing", "origin", "affine", "mask"), "arrays")
-    _refuse({**given, **options}, ("box", "voxel_size", "resolution"), "fields and scenes")
-    _refuse(options, ("grid",), ".vdb files")
-    cores = []
-    for name, grid in (("volume", volume), ("sigma", given["sigma"]), ("weight", given["weight"])):
-        if is_openvdb(grid):
-            grid = borrowed(grid)
-        if grid is not None and not isinstance(grid, Grid):
-            raise TypeError(f"{name} must be a pdc.Grid as the volume is, not {type(grid).__name__}")
-        cores.append(None if grid is None else grid._handle)
-    return ("grid", *cores), options
-
-
-def _file_source(volume: Any, given: _Given, options: Dict[str, Any]) -> Tuple[Source, Dict[str, Any]]:
-    _refuse_otsu(options)
-    _refuse(given, ("spacing", "origin", "affine", "mask", "box"), "volumes in memory")
-    names = {}
-    for name in ("sigma", "weight"):
-        if given[name] is not None:
-            if not isinstance(given[name], str):
-                raise TypeError(f"{name} must be the name of a grid of the file, not {type(given[name]).__name__}")
-            names[f"{name}_grid"] = given[name]
-    return ("file", path_text("volume", volume)), {**options, **names}
-
-
-def _field_source(
-    field: Field, given: _Given, options: Dict[str, Any], scene: Optional[Scene]
-) -> Tuple[Source, Dict[str, Any]]:
-    _refuse_otsu(options)
-    _refuse(given, ("spacing", "origin", "affine", "mask"), "arrays")
-    _refuse(given, ("sigma", "weight"), "arrays and grids")
-    _refuse(options, ("inside", "grid_class", "flood_fill"), "arrays and grids")
-    if options.get("hermite", "auto") != "auto":
-        raise ValueError("hermite goes with arrays and grids only")
-    chosen = dict(options)
-    box = given["box"]
-    if scene is not None:
-        box = scene.box if box is None else box
-        chosen.setdefault("level", scene.level)
-        if scene._nan == "outside":
-            chosen["nan"] = "outside"
-        if "resolution" not in chosen:
-            chosen.setdefault("voxel_size", scene.voxel_size)
-    if box is None:
-        raise ValueError("box must be given for a field: two corners, or the edge of a cube about the origin")
-    lo, hi = _corners(box)
-    if "resolution" in chosen:
-        chosen["voxel_size"] = max(h - l for l, h in zip(lo, hi)) / chosen.pop("resolution")
-    if "voxel_size" not in chosen:
-        raise ValueError("voxel_size or resolution must be given for a field")
-    return ("field", field._handle, (*lo, *hi), None if scene is None else scene.sigma_normal), chosen
-
-
-def _corners(box: Any) -> Tuple[Any, Any]:
-    if np.ndim(box) == 0:
-        half = number("box", box, above=0) / 2
-        return (-half,) * 3, (half,) * 3
-    if len(box) != 2:
-        raise ValueError(f"box must be two corners, or the edge of a cube about the origin, not {box!r}")
-    lo, hi = triple("box[0]", box[0]), triple("box[1]", box[1])
-    for axis, low, high in zip("xyz", lo, hi):
-        if not low < high:
-            raise ValueError(f"box must not be empty: it goes from {low:g} to {high:g} along {axis}")
-    return lo, hi
-
-
 def sweep(
-    volume: Volume,
+    volume: Input,
     parameter: str,
     values: abc.Sequence[float],
     *,
@@ -402,20 +256,23 @@ def sweep(
         raise ValueError(f"{parameter} is what is swept")
     if parameter == "voxel_size":
         options["voxel_size"] = checked[0]
-    given = {name: options.pop(name, None) for name in _GIVEN}
+    given = {name: options.pop(name, None) for name in GIVEN}
+    if given["attributes"] is not None:
+        raise TypeError("sweep() got an unexpected argument 'attributes'")
+    if given["adaptive_scale"] is not None and parameter in ("level", "voxel_size"):
+        raise ValueError("adaptive_scale goes with sweeps of sigma_normal and adaptive only")
     unknown = set(options) - set(_DEFAULTS)
     if unknown:
         raise TypeError(f"sweep() got an unexpected argument '{sorted(unknown)[0]}'")
-    source, chosen = _source(volume, given, _options(**{**_DEFAULTS, **options}))
+    source, chosen = source_of(volume, given, options_of(**{**_DEFAULTS, **options}))
     report, cores = _core.sweep(source, parameter, checked, chosen, callback(progress))
     return (report, [Mesh._of(core, {}) for core in cores]) if meshes else report
 
 
-_GIVEN = ("spacing", "origin", "affine", "sigma", "weight", "mask", "box")
 _DEFAULTS: Dict[str, Any] = {
     name: default
     for name, default in (contour.__kwdefaults__ or {}).items()
-    if name not in _GIVEN and name != "progress"
+    if name not in GIVEN and name != "progress"
 }
 _DEFAULTS["level"] = None
 

@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import integer, number, numeric_array, optional_number, triple
+from ._arguments import Progress, callback, integer, number, numeric_array, optional_number, triple
+from ._mesh import Mesh, _need_mesh
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 
@@ -291,6 +292,31 @@ def simplex_noise(
             number("amplitude", amplitude, at_least=0),
         )
     )
+
+
+def mesh_field(mesh: Mesh, *, progress: Progress = None) -> Field:
+    """The signed distance from a mesh in world units, negative inside: where it goes around more than half a time.
+
+    For a closed mesh that does not intersect itself these are exact distances; holes of others are closed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    progress : function of (stage, share), optional
+
+    Raises
+    ------
+    pdc.Error
+        For a mesh without a triangle.
+
+    Examples
+    --------
+    >>> cube = pdc.contour(pdc.box(2), box=2.5, resolution=20)
+    >>> pdc.mesh_field(cube)([[0, 0, 0], [0, 0, 3]]).round(3)
+    array([-1.,  2.])
+    """
+    _need_mesh(mesh)
+    return Field._of(_core.mesh_field(mesh._handle, callback(progress)))
 
 
 def formula(expression: str, *, lipschitz: Optional[float] = None) -> Field:

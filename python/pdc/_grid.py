@@ -8,8 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import affine_of, number, numeric_array, path_text, word
-from ._mesh import Path
+from ._arguments import (
+    Progress,
+    affine_of,
+    callback,
+    number,
+    numeric_array,
+    path_text,
+    thread_count,
+    warn,
+    word,
+)
+from ._grid_steps import GridSteps
+from ._mesh import Mesh, Path, _need_mesh
 
 _CLASSES = {None: "unknown", "level-set": "level set", "fog": "fog volume"}
 _TYPES = {"float": "FloatGrid", "bool": "BoolGrid", "double": "DoubleGrid", "int32": "Int32Grid", "int64": "Int64Grid"}
@@ -17,8 +28,11 @@ _MODULES = ("pyopenvdb", "openvdb")
 Index = Tuple[int, int, int]
 
 
-class Grid:
-    """A sparse grid of OpenVDB. read_grid(), Grid.from_array() and Grid.from_openvdb() make one.
+class Grid(GridSteps):
+    """A sparse grid of OpenVDB that does not change. Methods called from_... and read_grid() make one.
+
+    Steps such as clip() and smooth() make further ones: see docs/grids.md. Those carry on where their surface is and
+    which values are inside, to other steps and to contour().
 
     Examples
     --------
@@ -28,16 +42,18 @@ class Grid:
     (64, 'float', ((2, 2, 2), (5, 5, 5)))
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ("_handle", "_steps")
     _handle: _core.Grid
+    _steps: Tuple[Dict[str, Any], ...]
 
     def __init__(self) -> None:
-        raise TypeError("grids are made by pdc.read_grid(), pdc.Grid.from_array() and pdc.Grid.from_openvdb()")
+        raise TypeError("grids are made by pdc.read_grid(), pdc.Grid.from_array() and their like")
 
     @classmethod
-    def _of(cls, core: _core.Grid) -> Grid:
+    def _of(cls, core: _core.Grid, steps: Tuple[Dict[str, Any], ...] = ()) -> Grid:
         grid = cls.__new__(cls)
         grid._handle = core
+        grid._steps = steps
         return grid
 
     @classmethod
@@ -97,6 +113,42 @@ class Grid:
         if not is_openvdb(grid):
             raise TypeError(f"grid must be a grid of pyopenvdb or openvdb, not {type(grid).__name__}")
         return cls._of(_core.grid_from_bytes(grid.__getstate__()[1]))
+
+    @classmethod
+    def from_mesh(
+        cls,
+        mesh: Mesh,
+        voxel_size: float,
+        *,
+        half_width: Optional[float] = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Grid:
+        """The level set of a mesh, which should be closed.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        voxel_size : float
+            World units.
+        half_width : float, optional
+            Of the band on each side, in world units, at least a voxel. Default: three voxels.
+        threads, progress
+            As for contour().
+
+        Examples
+        --------
+        >>> ball = pdc.contour(pdc.sphere(1), box=2.5, resolution=24)
+        >>> grid = pdc.Grid.from_mesh(ball, 0.1)
+        >>> grid.grid_class, bool(abs(grid.background - 0.3) < 1e-6)
+        ('level set', True)
+        """
+        _need_mesh(mesh)
+        edge = number("voxel_size", voxel_size, above=0)
+        width = 0.0 if half_width is None else number("half_width", half_width, at_least=edge)
+        core, steps, lines = _core.grid_from_mesh(mesh._handle, edge, width, thread_count(threads), callback(progress))
+        warn(lines)
+        return cls._of(core, tuple(steps))
 
     def to_openvdb(self) -> Any:
         """A copy as a grid of the module openvdb or pyopenvdb, whichever is there.
@@ -164,6 +216,11 @@ class Grid:
     def affine(self) -> npt.NDArray[np.float64]:
         """The matrix, shape (4, 4), from indices to the world. Raises pdc.Error for a frustum."""
         return self._handle.affine
+
+    @property
+    def steps(self) -> Tuple[Dict[str, Any], ...]:
+        """What made it of another grid or a mesh, one after the other, as `pdc grid --json` has it."""
+        return self._steps
 
     def save(self, path: Path) -> None:
         """Write the grid to a .vdb file, which appears when it is complete. Raises pdc.Error."""

@@ -26,6 +26,14 @@ class Scene:
         The surface is where the field has this value.
     sigma_normal : float or None
         Noise of the normals that the file says.
+
+    Examples
+    --------
+    >>> text = "name: ball\\nbox: [[-1, -1, -1], [1, 1, 1]]\\nresolution: 20\\nshape: {sphere: {radius: 0.8}}"
+    >>> _ = open("ball.yaml", "w").write(text)
+    >>> ball = pdc.scene("ball.yaml")
+    >>> ball, ball.box[0], ball.field([[0, 0, 0]])
+    (<pdc.Scene: ball, voxels of 0.1>, (-1.0, -1.0, -1.0), array([-0.8]))
     """
 
     __slots__ = ("name", "field", "box", "voxel_size", "level", "sigma_normal", "_nan")

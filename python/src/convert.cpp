@@ -36,4 +36,15 @@ py::array_t<double> toArray(const Vec3d& v) {
   return array;
 }
 
+py::array_t<double> toArray(const Mat3d& linear, const Vec3d& translation) {
+  py::array_t<double> array({4, 4});
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) array.mutable_at(row, column) = linear.row[row][column];
+    array.mutable_at(row, 3) = translation[row];
+    array.mutable_at(3, row) = 0;
+  }
+  array.mutable_at(3, 3) = 1;
+  return array;
+}
+
 }  // namespace pdc::python

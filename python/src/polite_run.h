@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "parallel/with_threads.h"
 #include "pdc/monitor.h"
 
 namespace pdc::python {
@@ -44,6 +45,13 @@ auto makePolitely(const py::object& progress, const Make& make) {
   std::optional<decltype(make(std::declval<const Monitor&>()))> result;
   runPolitely(progress, [&](const Monitor& monitor) { result.emplace(make(monitor)); });
   return std::move(*result);
+}
+
+/// The same on so many threads; 0 is all.
+template <typename Make>
+auto makePolitely(const py::object& progress, int threads, const Make& make) {
+  return makePolitely(
+      progress, [&](const Monitor& monitor) { return detail::withThreads(threads, [&] { return make(monitor); }); });
 }
 
 }  // namespace pdc::python

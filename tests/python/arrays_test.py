@@ -130,7 +130,7 @@ def test_otsu_finds_the_level_between_two_kinds_of_values():
     assert 300 < mesh.report["iso"] < 700 and mesh.report["grid"]["inside"] == "high"
     radii = np.linalg.norm(mesh.vertices - 1, axis=1)
     assert abs(np.median(radii) - 0.7) < 0.5 * step
-    with pytest.raises(ValueError, match="level 'otsu' goes with arrays only"):
+    with pytest.raises(ValueError, match="level 'otsu' goes with arrays, volumes and files only"):
         pdc.contour(pdc.sphere(1), "otsu", box=3, resolution=8)
 
 
@@ -176,7 +176,7 @@ def test_no_surface_is_an_empty_mesh_and_a_warning():
         (np.zeros((3, 3, 3)), dict(threads=-1), ValueError, "threads must be from 0 to 4096, not -1"),
         (np.zeros((3, 3, 3)), dict(open=1), TypeError, "open must be True or False, not 1"),
         (np.zeros((3, 3, 3)), dict(adaptive="wide"), ValueError, "adaptive must be a length, or voxels as '0.1v', not 'wide'"),
-        (np.zeros((3, 3, 3)), dict(voxel_size=1), ValueError, "voxel_size goes with fields and scenes only"),
+        (np.zeros((3, 3, 3)), dict(voxel_size=1), ValueError, "voxel_size goes with fields, scenes and meshes only"),
         (np.zeros((3, 3, 3)), dict(progress=3), TypeError, "progress must be a function"),
     ],
 )

@@ -11,6 +11,7 @@ import sys
 import pytest
 
 import pdc
+from pdc._grid_steps import GridSteps
 
 PUBLIC = sorted(pdc.__all__)
 
@@ -19,7 +20,7 @@ def examples_of(thing):
     return doctest.DocTestFinder(recurse=False).find(thing, thing.__name__)
 
 
-@pytest.mark.parametrize("name", [name for name in PUBLIC if name not in ("Error", "Warning", "Check", "Scene")])
+@pytest.mark.parametrize("name", PUBLIC)
 def test_every_public_name_has_an_example_that_runs(name, doctest_namespace):
     thing = getattr(pdc, name)
     assert inspect.getdoc(thing)
@@ -32,12 +33,14 @@ def test_every_public_name_has_an_example_that_runs(name, doctest_namespace):
 
 def test_examples_of_methods_and_of_the_package_run(doctest_namespace):
     ran = 0
-    for thing in (pdc.Mesh.save, pdc.Grid.from_array, pdc.Grid.from_openvdb, pdc.Grid.to_array, pdc):
+    steps = [getattr(pdc.Grid, name) for name in vars(GridSteps) if not name.startswith("_")]
+    made = [pdc.Grid.from_array, pdc.Grid.from_mesh, pdc.Grid.from_openvdb, pdc.Grid.to_array]
+    for thing in (pdc.Mesh.save, *made, *steps, pdc):
         for test in examples_of(thing):
             test.globs = dict(doctest_namespace)
             assert doctest.DocTestRunner().run(test).failed == 0
             ran += len(test.examples)
-    assert ran >= 10
+    assert len(steps) == 11 and ran >= 30
 
 
 def test_contour_documents_every_argument():

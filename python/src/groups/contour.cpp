@@ -16,7 +16,7 @@ namespace {
 std::pair<MeshHandle, py::object> contourSource(const py::tuple& source, const py::dict& options,
                                                 const py::object& progress) {
   MeshRequest request = requestOf(options);
-  const OpenInput open = openSource(source, request);
+  const OpenInput open = withGrids(openSource(source, request), GivenOptions(options));
   ContourRun made =
       makePolitely(progress, [&](const Monitor& monitor) { return contourInput(open, request, monitor); });
   nlohmann::ordered_json report = toJson(request, made.run);

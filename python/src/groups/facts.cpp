@@ -3,7 +3,6 @@
 
 #include "convert.h"
 #include "groups/groups.h"
-#include "parallel/with_threads.h"
 #include "polite_run.h"
 #include "reports/check_facts.h"
 #include "reports/info_facts.h"
@@ -12,8 +11,8 @@ namespace pdc::python {
 namespace {
 
 py::object check(const MeshHandle& mesh, bool allowBoundary, bool allowEmpty, int threads, const py::object& progress) {
-  nlohmann::ordered_json facts = makePolitely(progress, [&](const Monitor& monitor) {
-    return detail::withThreads(threads, [&] { return checkFacts(MeshFile{*mesh.mesh, {}}, monitor); });
+  nlohmann::ordered_json facts = makePolitely(progress, threads, [&](const Monitor& monitor) {
+    return checkFacts(MeshFile{*mesh.mesh, {}}, monitor);
   });
   facts["faults"] = faultsIn(facts, {.boundary = allowBoundary, .empty = allowEmpty});
   facts["clean"] = facts["faults"].empty();

@@ -10,6 +10,7 @@
 #include "groups/groups.h"
 #include "inputs/callable_field.h"
 #include "pdc/field/formula.h"
+#include "pdc/field/mesh_field.h"
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
@@ -107,6 +108,10 @@ void addPrimitives(py::module_& m) {
   });
 }
 
+FieldHandle fieldOfMesh(const MeshHandle& mesh, const py::object& progress) {
+  return {makePolitely(progress, [&](const Monitor&) { return meshField(*mesh.mesh); })};
+}
+
 void addOperators(py::module_& m) {
   m.def("unite", [](const Operands& of, std::optional<double> smooth) {
     return FieldHandle{smooth ? smoothUnite(fieldsOf(of), *smooth) : unite(fieldsOf(of))};
@@ -154,6 +159,7 @@ void addFields(py::module_& module) {
   py::class_<FieldHandle>(module, "Field").def("values", &valuesAt).def("gradients", &gradientsAt);
   addPrimitives(module);
   addOperators(module);
+  module.def("mesh_field", &fieldOfMesh);
   module.def("read_scene", &readSceneFile);
 }
 

@@ -11,23 +11,12 @@
 #include "pdc/io/mesh/mesh_reader.h"
 #include "pdc/io/mesh/mesh_writer.h"
 #include "polite_run.h"
+#include "remedies.h"
 
 namespace pdc::python {
 namespace {
 
-/// Rows of K numbers, as the Python files give them: in C order, of the right shape.
-template <typename Number>
-using Rows = py::array_t<Number, py::array::c_style>;
-
 py::ssize_t count(std::size_t n) { return static_cast<py::ssize_t>(n); }
-
-template <typename Row, typename Number>
-void copyRows(const Rows<Number>& from, Buffer<Row>& to) {
-  static_assert(std::is_trivially_copyable_v<Row>);
-  to.resize(static_cast<std::size_t>(from.shape(0)));
-  std::copy_n(reinterpret_cast<const std::byte*>(from.data()), to.size() * sizeof(Row),
-              reinterpret_cast<std::byte*>(to.data()));
-}
 
 MeshHandle fromArrays(const Rows<float>& vertices, const Rows<std::uint32_t>& quads,
                       const Rows<std::uint32_t>& triangles, const Rows<float>& normals) {
@@ -121,13 +110,13 @@ std::pair<MeshHandle, std::vector<std::string>> read(const std::filesystem::path
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& line) { warnings.push_back(line); };
   Mesh mesh = makePolitely(py::none(), [&](const Monitor&) { return readMesh(path, {.warn = warn}); });
-  return {MeshHandle(std::move(mesh)), std::move(warnings)};
+  return {MeshHandle(std::move(mesh)), inPythonsWords(warnings)};
 }
 
-std::size_t save(const MeshHandle& self, const std::filesystem::path& path, bool ascii, bool doublePrecision) {
-  return makePolitely(py::none(), [&](const Monitor&) {
-    return writeMesh(*self.mesh, path, {.ascii = ascii, .doublePrecision = doublePrecision});
-  });
+std::size_t save(const MeshHandle& self, const std::filesystem::path& path, bool ascii, bool doublePrecision,
+                 const std::string& space, const std::string& unit) {
+  const MeshWriteOptions options{.ascii = ascii, .doublePrecision = doublePrecision, .space = space, .unit = unit};
+  return makePolitely(py::none(), [&](const Monitor&) { return writeMesh(*self.mesh, path, options); });
 }
 
 }  // namespace
@@ -143,7 +132,8 @@ void addMesh(py::module_& module) {
       .def_property_readonly("faces", &faces)
       .def_property_readonly("properties", &properties)
       .def_property_readonly("origin", [](const MeshHandle& self) { return toArray(self.mesh->origin); })
-      .def("save", &save, py::arg("path"), py::arg("ascii"), py::arg("double_precision"));
+      .def("save", &save, py::arg("path"), py::arg("ascii"), py::arg("double_precision"), py::arg("space"),
+           py::arg("unit"));
   module.def("read_mesh", &read, py::arg("path"));
 }
 

@@ -39,12 +39,16 @@ Sweep run(const std::vector<OpenInput>& opens, SweepParameter parameter, const s
           const MeshRequest& request, const Monitor& monitor) {
   SweepOptions options{.contour = request.contourOptions(kPapersSigmaNormal), .truth = {}};
   options.contour.origin.reset();
+  if (request.adaptive)
+    (request.adaptive->suffixed ? options.adaptive : options.contour.adaptive) = request.adaptive->value;
   if (parameter == SweepParameter::kIso || parameter == SweepParameter::kVoxelSize) {
     std::size_t next = 0;
     return sweepInputs(
         parameter, values, [&](double) { return toSweepInput(opens[next++](monitor), monitor); }, options, monitor);
   }
-  SweepInput input = toSweepInput(opens.front()(monitor), monitor);
+  Input first = opens.front()(monitor);
+  options.contour.adaptiveScale = std::move(first.adaptiveScale);
+  SweepInput input = toSweepInput(std::move(first), monitor);
   options.truth = std::move(input.truth);
   return parameter == SweepParameter::kSigmaNormal ? sweepSigma(*input.source, values, options, monitor)
                                                    : sweepAdaptive(*input.source, values, options, monitor);
@@ -60,7 +64,7 @@ std::pair<py::object, std::vector<MeshHandle>> sweep(const py::tuple& source, co
     MeshRequest step = request;
     if (swept == SweepParameter::kIso) step.iso = value;
     if (swept == SweepParameter::kVoxelSize) step.voxelSize = value;
-    opens.push_back(openSource(source, step));
+    opens.push_back(withGrids(openSource(source, step), GivenOptions(given)));
   }
   Sweep result =
       makePolitely(progress, [&](const Monitor& monitor) { return run(opens, swept, values, request, monitor); });

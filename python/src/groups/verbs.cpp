@@ -1,10 +1,8 @@
-#include <pybind11/stl.h>
-
 #include <utility>
 
 #include "convert.h"
+#include "given_options.h"
 #include "groups/groups.h"
-#include "parallel/with_threads.h"
 #include "pdc/mesh/triangulate_polygons.h"
 #include "pdc/simplify/cluster.h"
 #include "pdc/simplify/decimate.h"
@@ -17,9 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Changed = std::pair<MeshHandle, py::object>;
-
-template <typename Value>
-using Words = std::vector<std::pair<std::string, Value>>;
 
 const Words<QuadricKind> kQuadrics{{"plane", QuadricKind::kPlane},
                                    {"triangle", QuadricKind::kTriangle},
@@ -36,60 +31,33 @@ const Words<CovarianceSource> kCovariances{{"faces", CovarianceSource::kFaces},
                                            {"normals", CovarianceSource::kNormals},
                                            {"properties", CovarianceSource::kProperties}};
 
-/// Sets options by their names; None is what they are anyway.
-class Setter {
- public:
-  explicit Setter(const py::dict& options) : mOptions(options) {}
-
-  template <typename Value, typename Target>
-  void set(const char* name, Target& target) const {
-    if (const py::object value = given(name); !value.is_none()) target = value.cast<Value>();
-  }
-  template <typename Value>
-  void setWord(const char* name, const Words<Value>& words, Value& target) const {
-    if (const py::object value = given(name); !value.is_none())
-      target = valueOf(words, name, value.cast<std::string>());
-  }
-  [[nodiscard]] py::object given(const char* name) const {
-    return mOptions.contains(name) ? py::object(mOptions[name]) : py::none();
-  }
-  [[nodiscard]] int threads() const {
-    const py::object value = given("threads");
-    return value.is_none() ? 0 : value.cast<int>();
-  }
-
- private:
-  const py::dict& mOptions;
-};
-
 /// Runs change(monitor) on so many threads.
 template <typename Change>
 MeshHandle changed(const py::object& progress, int threads, const Change& change) {
-  return MeshHandle(makePolitely(
-      progress, [&](const Monitor& monitor) { return detail::withThreads(threads, [&] { return change(monitor); }); }));
+  return MeshHandle(makePolitely(progress, threads, change));
 }
 
 Changed decimated(const MeshHandle& mesh, const py::dict& given, const py::object& progress) {
-  const Setter setter(given);
+  const GivenOptions asked(given);
   DecimateOptions options;
-  setter.set<std::size_t>("faces", options.faces);
-  setter.set<double>("ratio", options.ratio);
-  setter.set<double>("error", options.error);
-  setter.set<double>("weld", options.weld);
-  setter.setWord("quadric", kQuadrics, options.quadric);
-  setter.setWord("placement", kPlacements, options.placement);
-  setter.set<double>("sigma_normal", options.sigmaNormal);
-  setter.set<double>("sigma_position", options.sigmaPosition);
-  setter.set<std::string>("sigma_property", options.sigmaProperty);
-  setter.set<double>("memory", options.memory);
-  setter.set<double>("max_turn", options.maxTurn);
-  setter.set<double>("boundary_weight", options.boundaryWeight);
-  setter.set<bool>("lock_boundary", options.lockBoundary);
-  setter.set<bool>("sound", options.sound);
-  setter.set<bool>("fit", options.fit);
-  setter.set<double>("pair_distance", options.pairDistance);
+  asked.take("faces", options.faces);
+  asked.take("ratio", options.ratio);
+  asked.take("error", options.error);
+  asked.take("weld", options.weld);
+  asked.takeWord("quadric", kQuadrics, options.quadric);
+  asked.takeWord("placement", kPlacements, options.placement);
+  asked.take("sigma_normal", options.sigmaNormal);
+  asked.take("sigma_position", options.sigmaPosition);
+  asked.take("sigma_property", options.sigmaProperty);
+  asked.take("memory", options.memory);
+  asked.take("max_turn", options.maxTurn);
+  asked.take("boundary_weight", options.boundaryWeight);
+  asked.take("lock_boundary", options.lockBoundary);
+  asked.take("sound", options.sound);
+  asked.take("fit", options.fit);
+  asked.take("pair_distance", options.pairDistance);
   DecimateReport r;
-  MeshHandle result = changed(progress, setter.threads(),
+  MeshHandle result = changed(progress, asked.threads(),
                               [&](const Monitor& monitor) { return decimate(*mesh.mesh, options, &r, monitor); });
   return {std::move(result), toPython({{"faces_before", r.facesBefore},
                                        {"faces", r.facesAfter},
@@ -108,17 +76,17 @@ Changed decimated(const MeshHandle& mesh, const py::dict& given, const py::objec
 }
 
 Changed clustered(const MeshHandle& mesh, const py::dict& given, const py::object& progress) {
-  const Setter setter(given);
+  const GivenOptions asked(given);
   ClusterOptions options;
-  setter.set<double>("cell", options.cell);
-  setter.setWord("quadric", kQuadrics, options.quadric);
-  setter.set<double>("sigma_normal", options.sigmaNormal);
-  setter.set<double>("sigma_position", options.sigmaPosition);
-  setter.set<double>("weld", options.weld);
-  setter.set<bool>("free", options.free);
-  setter.set<bool>("clean", options.clean);
+  asked.take("cell", options.cell);
+  asked.takeWord("quadric", kQuadrics, options.quadric);
+  asked.take("sigma_normal", options.sigmaNormal);
+  asked.take("sigma_position", options.sigmaPosition);
+  asked.take("weld", options.weld);
+  asked.take("free", options.free);
+  asked.take("clean", options.clean);
   ClusterReport r;
-  MeshHandle result = changed(progress, setter.threads(),
+  MeshHandle result = changed(progress, asked.threads(),
                               [&](const Monitor& monitor) { return cluster(*mesh.mesh, options, &r, monitor); });
   return {std::move(result), toPython({{"triangles_before", r.trianglesBefore},
                                        {"triangles", r.trianglesAfter},
@@ -133,16 +101,16 @@ Changed clustered(const MeshHandle& mesh, const py::dict& given, const py::objec
 }
 
 Changed smoothed(const MeshHandle& mesh, const py::dict& given, const py::object& progress) {
-  const Setter setter(given);
+  const GivenOptions asked(given);
   SmoothOptions options;
-  setter.set<int>("iterations", options.iterations);
-  setter.set<double>("sigma", options.sigma);
-  setter.set<std::string>("sigma_property", options.sigmaProperty);
-  setter.set<bool>("normalise_area", options.normaliseArea);
-  setter.set<bool>("plain", options.plain);
-  setter.set<bool>("lock_boundary", options.lockBoundary);
+  asked.take("iterations", options.iterations);
+  asked.take("sigma", options.sigma);
+  asked.take("sigma_property", options.sigmaProperty);
+  asked.take("normalise_area", options.normaliseArea);
+  asked.take("plain", options.plain);
+  asked.take("lock_boundary", options.lockBoundary);
   SmoothReport r;
-  MeshHandle result = changed(progress, setter.threads(),
+  MeshHandle result = changed(progress, asked.threads(),
                               [&](const Monitor& monitor) { return smooth(*mesh.mesh, options, &r, monitor); });
   return {std::move(result), toPython({{"vertices", r.vertices},
                                        {"triangles", r.triangles},
@@ -157,28 +125,28 @@ Changed smoothed(const MeshHandle& mesh, const py::dict& given, const py::object
 }
 
 Changed subdivided(const MeshHandle& mesh, const py::dict& given, const py::object& progress) {
-  const Setter setter(given);
+  const GivenOptions asked(given);
   SubdivideOptions options;
-  setter.set<int>("levels", options.levels);
-  setter.setWord("scheme", kSchemes, options.scheme);
-  setter.setWord("weights", kWeights, options.weights);
-  const py::object covariance = setter.given("covariance");
+  asked.take("levels", options.levels);
+  asked.takeWord("scheme", kSchemes, options.scheme);
+  asked.takeWord("weights", kWeights, options.weights);
+  const py::object covariance = asked.given("covariance");
   if (covariance.is_none()) {
     options.covariances.reset();
   } else {
     options.covariances->source = valueOf(kCovariances, "covariance", covariance.cast<std::string>());
-    setter.set<double>("bias", options.covariances->bias);
-    setter.set<double>("absolute_bias", options.covariances->absoluteBias);
-    setter.set<double>("sigma_normal", options.covariances->sigmaNormal);
+    asked.take("bias", options.covariances->bias);
+    asked.take("absolute_bias", options.covariances->absoluteBias);
+    asked.take("sigma_normal", options.covariances->sigmaNormal);
   }
-  setter.set<double>("crease_angle", options.creaseAngle);
-  setter.set<bool>("normals", options.normals);
-  setter.set<bool>("curvature", options.curvature);
-  setter.set<bool>("keep_covariances", options.keepCovariances);
-  setter.set<bool>("limit", options.limit);
+  asked.take("crease_angle", options.creaseAngle);
+  asked.take("normals", options.normals);
+  asked.take("curvature", options.curvature);
+  asked.take("keep_covariances", options.keepCovariances);
+  asked.take("limit", options.limit);
   options.limit = options.limit || options.normals || options.curvature;
   SubdivideReport r;
-  MeshHandle result = changed(progress, setter.threads(),
+  MeshHandle result = changed(progress, asked.threads(),
                               [&](const Monitor& monitor) { return subdivide(*mesh.mesh, options, &r, monitor); });
   return {std::move(result), toPython({{"faces_before", r.facesBefore},
                                        {"faces", r.facesAfter},

@@ -6,6 +6,7 @@
 #include "parallel/stopwatch.h"
 #include "parallel/with_threads.h"
 #include "pdc/extract/contour.h"
+#include "remedies.h"
 #include "reports/mesh_checks.h"
 
 namespace pdc::python {
@@ -20,6 +21,8 @@ void noteInput(const Input& input, MeshRun& run) {
         fmt::format("{} values of sigma and weight are negative or not finite; they count as 0", input.refusedNoise));
   run.warnings.insert(run.warnings.end(), input.warnings.begin(), input.warnings.end());
   run.meaning = input.meaning;
+  run.mesh = input.mesh;
+  run.volume = input.volume;
   run.steps = input.steps;
   run.crossingsWithoutData = input.crossingsWithoutData;
   run.iso = input.iso;
@@ -48,15 +51,18 @@ ContourRun contourInput(const OpenInput& open, const MeshRequest& request, const
     const Input input = open(monitor);
     run.secondsRead = stopwatch.lap();
     noteInput(input, run);
+    checkAttributes(input, request.ownProperties());
     run.options = request.contourOptions(input.sigmaNormal);
     if (request.adaptive)
       run.options.adaptive =
           request.adaptive->value * (request.adaptive->suffixed ? input.source->map().voxelSize() : 1);
     run.options.adaptiveScale = input.adaptiveScale;
     made.mesh = contour(*input.source, run.options, &run.contour, monitor);
+    addAttributes(input, made.mesh, monitor);
     run.secondsContour = stopwatch.lap();
     run.secondsTotal = run.secondsRead + run.secondsContour;
     noteMesh(input, made.mesh, run);
+    run.warnings = inPythonsWords(run.warnings);
     return made;
   });
 }

@@ -3,6 +3,8 @@
 #include <bit>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "convert.h"
 
@@ -28,6 +30,29 @@ std::optional<ScalarType> scalarType(char kind, py::ssize_t bytes) {
   return std::nullopt;
 }
 
+/// NumPy's letter for a kind of numbers.
+char codeOf(ScalarType type) {
+  switch (type) {
+    case ScalarType::kBool:
+      return 'b';
+    case ScalarType::kInt8:
+    case ScalarType::kInt16:
+    case ScalarType::kInt32:
+    case ScalarType::kInt64:
+      return 'i';
+    case ScalarType::kUint8:
+    case ScalarType::kUint16:
+    case ScalarType::kUint32:
+    case ScalarType::kUint64:
+      return 'u';
+    case ScalarType::kFloat16:
+    case ScalarType::kFloat32:
+    case ScalarType::kFloat64:
+      return 'f';
+  }
+  return 0;
+}
+
 }  // namespace
 
 VolumeView viewOf(const py::array& array) {
@@ -44,6 +69,15 @@ VolumeView viewOf(const py::array& array) {
     view.stride[axis] = array.strides(axis);
   }
   return view;
+}
+
+py::array arrayOf(const VolumeView& view, const std::shared_ptr<const void>& owner) {
+  const bool little = (std::endian::native == std::endian::little) != view.swapped;
+  const py::dtype dtype(std::string(little ? "<" : ">") + codeOf(view.type) + std::to_string(sizeOf(view.type)));
+  std::vector<py::ssize_t> shape(view.size.begin(), view.size.end()), strides(view.stride.begin(), view.stride.end());
+  py::array array(dtype, std::move(shape), std::move(strides), view.data, capsuleOf(owner));
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 LatticeMap mapOf(const py::array_t<double>& affine) {

@@ -3,13 +3,11 @@
 #include <array>
 #include <string>
 
-#include "convert.h"
+#include "given_options.h"
+#include "pdc/error.h"
 
 namespace pdc::python {
 namespace {
-
-template <typename Value>
-using Words = std::vector<std::pair<std::string, Value>>;
 
 const Words<Placement> kPlacements{
     {"certified", Placement::kCertified}, {"cell", Placement::kCell}, {"free", Placement::kFree}};
@@ -18,43 +16,16 @@ const Words<HermiteMode> kHermiteModes{
 const Words<GridClass> kGridClasses{{"level-set", GridClass::kLevelSet}, {"fog", GridClass::kFogVolume}};
 const Words<InsideValues> kInsides{{"low", InsideValues::kLow}, {"high", InsideValues::kHigh}};
 const Words<bool> kNonFiniteModes{{"error", false}, {"outside", true}};
+const Words<WorldFrame> kFrames{{"file", WorldFrame::kFile}, {"ras", WorldFrame::kRas}, {"lps", WorldFrame::kLps}};
 
-/// Reads options one after the other.
-class Options {
- public:
-  explicit Options(const py::dict& options) : mOptions(options) {}
-
-  template <typename Target>
-  void take(const char* name, Target& target) const {
-    using Value = decltype(valueType(target));
-    if (const py::object value = given(name); !value.is_none()) target = value.cast<Value>();
-  }
-  template <typename Value, typename Target>
-  void takeWord(const char* name, const Words<Value>& words, Target& target) const {
-    if (const py::object value = given(name); !value.is_none())
-      target = valueOf(words, name, value.cast<std::string>());
-  }
-  [[nodiscard]] py::object given(const char* name) const {
-    return mOptions.contains(name) ? py::object(mOptions[name]) : py::none();
-  }
-
- private:
-  template <typename Value>
-  static Value valueType(const std::optional<Value>&);
-  template <typename Value>
-  static Value valueType(const Value&);
-
-  const py::dict& mOptions;
-};
-
-void takeSigma(const Options& options, MeshRequest& request) {
+void takeSigma(const GivenOptions& options, MeshRequest& request) {
   const py::object sigma = options.given("sigma_normal");
   if (sigma.is_none()) return;
   request.sigmaFromData = py::isinstance<py::str>(sigma);
   if (!request.sigmaFromData) request.sigmaNormal = sigma.cast<double>();
 }
 
-void takeMeshOrigin(const Options& options, MeshRequest& request) {
+void takeMeshOrigin(const GivenOptions& options, MeshRequest& request) {
   const py::object origin = options.given("mesh_origin");
   if (origin.is_none()) return;
   request.originFromData = py::isinstance<py::str>(origin);
@@ -63,20 +34,64 @@ void takeMeshOrigin(const Options& options, MeshRequest& request) {
   request.origin = Vec3d{xyz[0].cast<double>(), xyz[1].cast<double>(), xyz[2].cast<double>()};
 }
 
+/// What is to be done with further grids of a .vdb file, by their names.
+void takeGridNames(const GivenOptions& options, MeshRequest& request) {
+  options.take("sigma_grid", request.sigmaGrid);
+  options.take("weight_grid", request.weightGrid);
+  options.take("adaptive_grid", request.adaptiveGrid);
+  options.take("attributes", request.attributes);
+  options.take("all_attributes", request.allAttributes);
+}
+
 }  // namespace
 
+VolumeReadOptions volumeOptionsOf(const GivenOptions& options) {
+  VolumeReadOptions volume;
+  std::optional<std::string> raw;
+  options.take("raw", raw);
+  try {
+    if (raw) volume.raw = parseRawVolume(*raw);
+  } catch (const Error& error) {
+    throw py::value_error(std::string("raw: ") + error.what());
+  }
+  options.take("array", volume.array);
+  options.take("series", volume.series);
+  options.take("volume_index", volume.volumeIndex);
+  options.take("channel", volume.channel);
+  options.take("spacing", volume.spacing);
+  options.takeWord("space", kFrames, volume.frame);
+  return volume;
+}
+
+GridMeaningOptions meaningOf(const GivenOptions& options) {
+  GridMeaningOptions meaning;
+  options.take("level", meaning.iso);
+  options.takeWord("grid_class", kGridClasses, meaning.gridClass);
+  options.takeWord("inside", kInsides, meaning.inside);
+  options.take("flood_fill", meaning.floodFill);
+  return meaning;
+}
+
+bool acceptsNonFinite(const GivenOptions& options) {
+  bool accept = false;
+  options.takeWord("nan", kNonFiniteModes, accept);
+  return accept;
+}
+
 MeshRequest requestOf(const py::dict& given) {
-  const Options options(given);
+  const GivenOptions options(given);
   MeshRequest request;
-  options.take("level", request.iso);
-  options.takeWord("inside", kInsides, request.inside);
-  options.takeWord("grid_class", kGridClasses, request.gridClass);
+  const GridMeaningOptions meaning = meaningOf(options);
+  request.iso = meaning.iso;
+  request.inside = meaning.inside;
+  request.gridClass = meaning.gridClass;
+  request.floodFill = meaning.floodFill;
+  options.take("otsu", request.isoFromOtsu);
   takeSigma(options, request);
   options.takeWord("placement", kPlacements, request.placement);
   options.takeWord("hermite", kHermiteModes, request.hermite);
   options.take("open", request.open);
-  options.take("flood_fill", request.floodFill);
-  options.takeWord("nan", kNonFiniteModes, request.acceptNonFinite);
+  request.acceptNonFinite = acceptsNonFinite(options);
   options.take("triangles", request.triangles);
   options.take("normals", request.normals);
   options.take("confidence", request.confidence);
@@ -86,8 +101,10 @@ MeshRequest requestOf(const py::dict& given) {
   options.take("voxel_size", request.voxelSize);
   options.take("resolution", request.resolution);
   options.take("grid", request.grid);
-  options.take("sigma_grid", request.sigmaGrid);
-  options.take("weight_grid", request.weightGrid);
+  options.take("offset", request.steps.steps.offset);
+  options.take("shell", request.shell);
+  takeGridNames(options, request);
+  request.volume = volumeOptionsOf(options);
   takeMeshOrigin(options, request);
   options.take("max_memory", request.maxMemory);
   options.take("threads", request.threads);

@@ -70,28 +70,13 @@ class Lines {
 
  private:
   [[nodiscard]] std::string option(std::string_view name, std::string_view value) const {
-    switch (mStyle) {
-      case OptionStyle::kProgram:
-        return fmt::format("--{} {}", name, value);
-      case OptionStyle::kScene:
-        return fmt::format("{}: {}", name, value);
-      case OptionStyle::kPython:
-        break;
-    }
-    if (name == "iso") return fmt::format("level={}", value);
-    return fmt::format("{}='{}'", name == "class" ? "grid_class" : name, value);
+    return mStyle == OptionStyle::kProgram ? fmt::format("--{} {}", name, value) : fmt::format("{}: {}", name, value);
   }
   // What closes and opens surfaces goes with grids that are contoured by themselves only.
   [[nodiscard]] const char* closing() const {
-    if (mStyle == OptionStyle::kScene) return "";
-    return mStyle == OptionStyle::kProgram
-               ? "; --flood-fill closes a solid, --open ends a scan's surface there"
-               : "; flood_fill=True closes a grid's solid, open=True ends a scan's surface there";
+    return mStyle == OptionStyle::kProgram ? "; --flood-fill closes a solid, --open ends a scan's surface there" : "";
   }
-  [[nodiscard]] const char* opening() const {
-    if (mStyle == OptionStyle::kScene) return "";
-    return mStyle == OptionStyle::kProgram ? "; --open leaves it open" : "; open=True leaves it open";
-  }
+  [[nodiscard]] const char* opening() const { return mStyle == OptionStyle::kProgram ? "; --open leaves it open" : ""; }
 
   const GridMeaning& mMeaning;
   OptionStyle mStyle;

@@ -47,14 +47,5 @@ TEST(GridWarnings, ScenesHaveKeysInsteadOfOptions) {
     EXPECT_FALSE(mentions(lineOf(doubt, OptionStyle::kScene), "--"));
 }
 
-TEST(GridWarnings, PythonHasArgumentsInsteadOfOptions) {
-  EXPECT_TRUE(mentions(lineOf(GridDoubt::kPositiveInside, OptionStyle::kPython), "inside='high'"));
-  EXPECT_TRUE(mentions(lineOf(GridDoubt::kLooksLikeFog, OptionStyle::kPython), "grid_class='fog'"));
-  EXPECT_TRUE(mentions(lineOf(GridDoubt::kUnsigned, OptionStyle::kPython), "level=V"));
-  EXPECT_TRUE(mentions(lineOf(GridDoubt::kCutAtEnd, OptionStyle::kPython), "open=True"));
-  for (const GridDoubt doubt : {GridDoubt::kOutermostInside, GridDoubt::kNotFloodFilled, GridDoubt::kCutAtEnd})
-    EXPECT_FALSE(mentions(lineOf(doubt, OptionStyle::kPython), "--"));
-}
-
 }  // namespace
 }  // namespace pdc::detail
