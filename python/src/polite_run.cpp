@@ -5,10 +5,15 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <deque>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "pdc/error.h"
 
@@ -73,20 +78,58 @@ class Watch {
   bool mNews = false, mDone = false;
 };
 
+/// Threads that take work and wait for more. TBB keeps something of each thread in which a parallel loop ended by an
+/// exception, so that a new thread for each call would make a process grow.
+class Workers {
+ public:
+  /// Those of the process. They live as long as it does, and so does what they wait for.
+  static Workers& all() {
+    static auto* const workers = new Workers;
+    return *workers;
+  }
+  void start(std::function<void()> job) {
+    const std::lock_guard lock(mMutex);
+    if (mIdle <= mJobs.size()) std::thread([this] { takeJobs(); }).detach();
+    mJobs.push_back(std::move(job));
+    mWake.notify_one();
+  }
+
+ private:
+  [[noreturn]] void takeJobs() {
+    std::unique_lock lock(mMutex);
+    for (;;) {
+      ++mIdle;
+      mWake.wait(lock, [this] { return !mJobs.empty(); });
+      --mIdle;
+      std::function<void()> job = std::move(mJobs.front());
+      mJobs.pop_front();
+      lock.unlock();
+      job();
+      job = nullptr;
+      lock.lock();
+    }
+  }
+
+  std::mutex mMutex;
+  std::condition_variable mWake;
+  std::deque<std::function<void()>> mJobs;
+  std::size_t mIdle = 0;
+};
+
 }  // namespace
 
 void runPolitely(const py::object& progress, const Work& work) {
   refuseAfterFork();
-  Watch watch;
+  const auto watch = std::make_shared<Watch>();
   std::atomic<bool> stop = false;
   Monitor monitor{.progress = {}, .stop = &stop};
-  if (!progress.is_none()) monitor.progress = [&watch](const char* stage, double share) { watch.note(stage, share); };
+  if (!progress.is_none()) monitor.progress = [&watch](const char* stage, double share) { watch->note(stage, share); };
 
   std::exception_ptr failure, raised;
   const auto listen = [&] {
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress.is_none()) watch.tell(progress);
+      if (!progress.is_none()) watch->tell(progress);
     } catch (const py::error_already_set&) {
       raised = std::current_exception();
       stop = true;
@@ -94,7 +137,8 @@ void runPolitely(const py::object& progress, const Work& work) {
   };
   {
     const py::gil_scoped_release release;
-    std::thread worker([&] {
+    // The last that a worker touches is the watch, of which it has its own share.
+    Workers::all().start([&monitor, &work, &failure, watch] {
       {
         const ThreadState state;
         try {
@@ -103,13 +147,12 @@ void runPolitely(const py::object& progress, const Work& work) {
           failure = std::current_exception();
         }
       }
-      watch.finish();
+      watch->finish();
     });
-    while (!watch.wait()) {
+    while (!watch->wait()) {
       const py::gil_scoped_acquire acquire;
       if (!raised) listen();
     }
-    worker.join();
   }
   if (!raised && !failure) listen();
   if (raised) std::rethrow_exception(raised);
