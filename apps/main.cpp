@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -29,6 +30,7 @@
 #include "pdc/error.h"
 #include "terminal/huge_heap.h"
 #include "terminal/interrupt.h"
+#include "terminal/manual.h"
 #include "terminal/settings.h"
 #include "terminal/shown_path.h"
 
@@ -52,16 +54,21 @@ class Commands {
     mPoints.emplace(app);
     for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
       pdc::addOptionsFile(*command);
+    // For those who make packages.
+    mManualCommand =
+        app.add_subcommand("manual", "Write manual pages and what makes bash complete commands")->group("");
+    mManualCommand->add_option("FOLDER", mManualFolder)->required();
   }
 
   /// Runs the one that was given. \returns the exit code.
   [[nodiscard]] int run() const {
     const CLI::App& given = *mApp.get_subcommands().front();
-    pdc::saveGivenOptions(given);
+    if (&given != mManualCommand) pdc::saveGivenOptions(given);
     pdc::reportOptions(pdc::givenSettings(given));
     for (const auto& [command, runIt] : mRuns)
       if (command->parsed()) return runIt();
     mPoints->run();
+    if (mManualCommand->parsed()) pdc::writeManual(mApp, mManualFolder);
     return kDone;
   }
 
@@ -132,6 +139,8 @@ class Commands {
   pdc::SubdivideRequest mSubdivide;
   pdc::SmoothRequest mSmooth;
   std::optional<pdc::PointsCommands> mPoints;
+  CLI::App* mManualCommand = nullptr;
+  std::filesystem::path mManualFolder;
 };
 
 /// Returns the exit code.
