@@ -36,7 +36,8 @@ nlohmann::ordered_json toJson(const ReconstructReport& report) {
   return {{"mixture", toJson(report.mixture)},
           {"gaussians", report.gaussians},
           {"triangulation", toJson(report.triangulation)},
-          {"control_triangles", report.controlTriangles}};
+          {"control_triangles", report.controlTriangles},
+          {"dropped_parts", report.droppedParts}};
 }
 
 }  // namespace pdc

@@ -5,21 +5,10 @@
 
 #include "parallel/stopwatch.h"
 #include "pdc/error.h"
-#include "pdc/grid/mesh_to_level_set.h"
-#include "pdc/sample/vdb/grid_source.h"
 #include "pdc/subdivide/subdivide.h"
+#include "points/mixture_surface.h"
 
 namespace pdc {
-namespace {
-
-/// A closed surface anew, from the distances to it.
-Mesh contourOf(const Mesh& surface, double voxelSize, const Monitor& monitor) {
-  const GridVolume volume = meshToLevelSet(surface, {.voxelSize = voxelSize}, nullptr, monitor);
-  return contour(GridSource(volume.grid), {.triangles = true}, nullptr, monitor);
-}
-
-}  // namespace
-
 Mesh reconstruct(const PointCloud& cloud, const ReconstructOptions& options, ReconstructReport* report,
                  Mesh* covarianceMesh, const Monitor& monitor) {
   constexpr int kMostSubdivisions = 31;
@@ -46,7 +35,9 @@ Mesh reconstruct(const PointCloud& cloud, const ReconstructOptions& options, Rec
     mesh = subdivide(mesh, subdivision, nullptr, monitor);
   }
   own.secondsSubdivide = stopwatch.lap();
-  if (options.voxelSize) mesh = contourOf(mesh, *options.voxelSize, monitor);
+  if (options.voxelSize)
+    mesh = detail::contourMixture(mixture, {own.mixture.sigma0, static_cast<double>(own.mixture.points)}, mesh,
+                                  *options.voxelSize, own.droppedParts, monitor);
   own.secondsContour = stopwatch.lap();
   if (report != nullptr) *report = own;
   return mesh;

@@ -92,7 +92,8 @@ void addReconstructOptions(CLI::App& command, ReconstructRequest& request) {
       ->group(surface);
   addReal(
       command, "--voxel-size", request.voxelSize, [](double v) { return v > 0 && std::isfinite(v); },
-      "a finite number above 0", "Close the surface and contour its distances with voxels of\nthis size")
+      "a finite number above 0",
+      "Close the surface and contour the ridge of the mixture near\nit with voxels of this size")
       ->type_name("H")
       ->group(surface);
   const auto output = "Output";
