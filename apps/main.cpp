@@ -23,6 +23,7 @@
 #include "commands/smooth_command.h"
 #include "commands/subdivide_command.h"
 #include "commands/sweep_command.h"
+#include "commands/view_command.h"
 #include "files/json_file.h"
 #include "files/options_file.h"
 #include "files/pipes.h"
@@ -109,6 +110,9 @@ class Commands {
     CLI::App& render = add("render", "Draw a mesh into a .png file", [this] { pdc::runRender(mRender); });
     pdc::addRenderOptions(render, mRender);
     pdc::addPipes(render, mRender.mesh, &mRender.picture);
+    CLI::App& view = add("view", "Write a page to look at a mesh in a browser", [this] { pdc::runView(mView); });
+    pdc::addViewOptions(view, mView);
+    pdc::addPipes(view, mView.mesh, &mView.page);
     CLI::App& decimate = add("decimate", "Write a mesh with fewer triangles", [this] { pdc::runDecimate(mDecimate); });
     pdc::addDecimateOptions(decimate, mDecimate);
     pdc::addPipes(decimate, mDecimate.input, &mDecimate.output);
@@ -134,6 +138,7 @@ class Commands {
   pdc::SweepRequest mSweep;
   pdc::CheckRequest mCheck;
   pdc::RenderRequest mRender;
+  pdc::ViewRequest mView;
   pdc::DecimateRequest mDecimate;
   pdc::ClusterRequest mCluster;
   pdc::SubdivideRequest mSubdivide;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <variant>
 
 #include "files/mesh_file.h"
+#include "mesh/magnitudes.h"
 #include "pdc/error.h"
 #include "pdc/mesh/distance.h"
 #include "terminal/shown_path.h"
@@ -16,27 +16,6 @@ namespace pdc {
 namespace {
 
 constexpr std::string_view kProperty = "property:";
-
-/// The property's numbers, or its vectors' lengths.
-Buffer<float> scalars(const VertexProperty& property) {
-  const auto components = static_cast<std::size_t>(property.components);
-  return std::visit(
-      [&](const auto& numbers) {
-        Buffer<float> result(numbers.size() / components);
-        for (std::size_t i = 0; i < result.size(); ++i) {
-          if (components == 1) {
-            result[i] = static_cast<float>(numbers[i]);
-            continue;
-          }
-          double squares = 0;
-          for (std::size_t k = i * components; k < (i + 1) * components; ++k)
-            squares += static_cast<double>(numbers[k]) * static_cast<double>(numbers[k]);
-          result[i] = static_cast<float>(std::sqrt(squares));
-        }
-        return result;
-      },
-      property.values);
-}
 
 Buffer<float> distancesTo(const std::filesystem::path& reference, const Mesh& mesh, const Monitor& monitor) {
   Buffer<float> values;
@@ -59,7 +38,7 @@ ShadingValues shadingValues(const RenderRequest& request, const Mesh& mesh, cons
   if (!request.reference.empty()) {
     shown.values = distancesTo(request.reference, mesh, monitor);
   } else if (const VertexProperty* const property = mesh.property(shown.name)) {
-    shown.values = scalars(*property);
+    shown.values = detail::magnitudes(*property);
   } else {
     throw Error(fmt::format("{}: its vertices have no property \"{}\"{}", shownPath(request.mesh), shown.name,
                             request.shading == "error" ? "; give one, or a --reference" : ""));
