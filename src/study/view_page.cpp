@@ -11,7 +11,7 @@
 #include "io/file/suffix.h"
 #include "io/mesh/vertex_colours.h"
 #include "mesh/faces.h"
-#include "mesh/magnitudes.h"
+#include "mesh/local/magnitudes.h"
 #include "mesh/mesh_checks.h"
 #include "pdc/mesh/distance.h"
 #include "render/shading.h"

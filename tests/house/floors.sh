@@ -22,7 +22,7 @@ declare -A room_of=(
   [field]=0 [field/primitives]=1 [field/operators]=1
   [io/file]=0 [io/deflate]=1 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=2 [io/scene]=4 [io/points]=4 [io]=5
   [study/view]=0 [study]=1
-  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps/commands/points]=4
+  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps/commands/points]=4 [apps/commands/pictures]=4
   [apps]=5
   [python/inputs]=0 [python/groups]=1 [python]=2
 )

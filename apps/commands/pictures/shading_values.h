@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "commands/render_command.h"
+#include "commands/pictures/render_command.h"
 #include "pdc/mesh/mesh.h"
 #include "pdc/monitor.h"
 

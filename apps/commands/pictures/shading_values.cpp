@@ -1,4 +1,4 @@
-#include "commands/shading_values.h"
+#include "commands/pictures/shading_values.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "files/mesh_file.h"
-#include "mesh/magnitudes.h"
+#include "mesh/local/magnitudes.h"
 #include "pdc/error.h"
 #include "pdc/mesh/distance.h"
 #include "terminal/shown_path.h"

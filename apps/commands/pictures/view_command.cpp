@@ -1,4 +1,4 @@
-#include "commands/view_command.h"
+#include "commands/pictures/view_command.h"
 
 #include <fmt/format.h>
 

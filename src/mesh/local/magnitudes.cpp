@@ -1,4 +1,4 @@
-#include "mesh/magnitudes.h"
+#include "mesh/local/magnitudes.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "commands/render_command.h"
+#include "commands/pictures/render_command.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "commands/shading_values.h"
+#include "commands/pictures/shading_values.h"
 #include "files/mesh_file.h"
 #include "parallel/with_threads.h"
 #include "pdc/io/png_writer.h"
