@@ -35,7 +35,7 @@ def test_bytes_and_reports_are_the_programs(program, root, file, options, argume
     mesh.save("python.ply")
     assert open("python.ply", "rb").read() == expected
     measured = {"seconds", "peak_memory_bytes"}
-    files = {"output", "bytes_written", "double_precision"}
+    files = {"output", "bytes_written", "double_precision", "options"}
     assert set(mesh.report) == set(facts) - files
     for name in set(mesh.report) - measured - {"warnings"}:
         assert mesh.report[name] == facts[name], name

@@ -196,7 +196,9 @@ TEST(SceneReader, ShapeErrorsSayWhere) {
   EXPECT_EQ(errorOfShape("sphere"), "s.yaml:4:3: shape must be a map, not 'sphere'");
   EXPECT_EQ(errorOfShape("sphere:"), "s.yaml:4:3: sphere must be a map, not nothing");
   EXPECT_EQ(errorOfShape("sphere: {}"), "s.yaml:4:11: radius is missing in sphere");
-  EXPECT_EQ(errorOfShape("sphere: {radus: 1}"), "s.yaml:4:12: unknown key 'radus'; sphere takes center, radius");
+  EXPECT_EQ(errorOfShape("sphere: {radus: 1}"),
+            "s.yaml:4:12: unknown key 'radus' (did you mean 'radius'?); sphere takes center, radius");
+  EXPECT_EQ(errorOfShape("sphere: {size: 1}"), "s.yaml:4:12: unknown key 'size'; sphere takes center, radius");
   EXPECT_EQ(errorOfShape("sphere: {radius: 1, radius: 2}"), "s.yaml:4:23: key 'radius' is repeated");
   EXPECT_EQ(errorOfShape("sphere: {radius: -1}"), "s.yaml:4:20: radius must be positive, not '-1'");
   EXPECT_EQ(errorOfShape("sphere: {radius: 1m}"), "s.yaml:4:20: radius must be a number, not '1m'");
