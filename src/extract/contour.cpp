@@ -8,13 +8,11 @@
 #include <stdexcept>
 
 #include "extract/adapt.h"
-#include "extract/certify/certify.h"
 #include "extract/contour_memory.h"
-#include "extract/faces/fill_mesh.h"
+#include "extract/fill_and_certify.h"
 #include "extract/mesh_origin.h"
 #include "extract/topology/continuation.h"
 #include "extract/topology/surface.h"
-#include "extract/vertex_confidence.h"
 #include "extract/vertex_quadrics.h"
 #include "parallel/with_threads.h"
 #include "sample/relocated_source.h"
@@ -68,18 +66,7 @@ Mesh run(const HermiteSource& world, const ContourOptions& options, ContourRepor
   const detail::Surface surface{source, blocks, topology};
   Mesh mesh;
   mesh.origin = place.origin;
-  const bool promised = options.placement != Placement::kFree;
-  detail::Suspects suspects;
-  const detail::SigmaNormal sigma =
-      options.sigmaNormal ? detail::SigmaNormal(*options.sigmaNormal) : detail::SigmaNormal::fromData(source);
-  const detail::FillMeshOptions fill{
-      .sigma = sigma,
-      .halfSize = options.placement == Placement::kCell ? detail::kCellHalfSize : detail::kFreeHalfSize,
-      .normals = options.normals};
-  const detail::VertexCounts counts = fillMesh(surface, fill, mesh, promised ? &suspects : nullptr, monitor);
-  detail::CertifyCounts certified;
-  if (promised) certified = certify(surface, suspects, mesh, monitor);
-  if (options.confidence || options.ranks) addVertexConfidence(surface, options, mesh, monitor);
+  const auto [sigma, counts, certified] = fillAndCertify(surface, options, mesh, monitor);
   Buffer<Quadric<float>> quadrics;
   if (options.quadrics) quadrics = vertexQuadrics(surface, sigma, mesh, monitor);
   detail::Adapted adapted;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "extract/certify/ambiguous_cells.h"
+#include "extract/certify/certify_history.h"
 #include "extract/certify/remedies.h"
 #include "extract/certify/restore_creases.h"
 #include "extract/certify/working_mesh.h"
@@ -65,15 +66,20 @@ std::vector<EdgeRef> firstFaces(const WorkingMesh& mesh, const Suspects& suspect
 
 }  // namespace
 
-CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& mesh, const Monitor& monitor) {
+CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& mesh, const Monitor& monitor,
+                      const CertifyNotes& notes) {
   RoundProgress progress(monitor, "certify");
   WorkingMesh working(surface, suspects.vertices, mesh, monitor);
   working.chooseSafeDiagonals(suspects.quads);
   std::vector<EdgeRef> active = firstFaces(working, suspects);
   NearFaces near(working.faces(), progress);
   std::vector<EdgeRef> unresolved;
-  while (!active.empty()) active = resolve(working, near, near.findConflicts(active), unresolved);
-  for (int pass = 0; pass < kRestorePasses; ++pass) restoreCreases(working, near);
+  if (notes.history != nullptr) notes.history->beginPhase();
+  while (!active.empty()) {
+    if (notes.history != nullptr) notes.history->record(working, active);
+    active = resolve(working, near, near.findConflicts(active), unresolved);
+  }
+  for (int pass = 0; pass < kRestorePasses; ++pass) restoreCreases(working, near, notes.history);
 
   CertifyCounts counts;
   // What moved later may have resolved some of them.
@@ -86,7 +92,7 @@ CertifyCounts certify(const Surface& surface, const Suspects& suspects, Mesh& me
     counts.drawnIn += safe;
     counts.shortened += !safe && v.place != v.wanted;
   }
-  counts.addedBoundaryEdges = working.fans().replaceQuads(monitor);
+  counts.addedBoundaryEdges = working.fans().replaceQuads(monitor, notes.fans);
   monitor.throwIfStopped();
   progress.finish();
   return counts;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "extract/certify/certify_history.h"
 #include "extract/certify/crease_moves.h"
 #include "parallel/sort_unique.h"
 
 namespace pdc::detail {
 
-void restoreCreases(WorkingMesh& mesh, NearFaces& near) {
+void restoreCreases(WorkingMesh& mesh, NearFaces& near, CertifyHistory* history) {
+  if (history != nullptr) history->beginPhase();
   std::vector<VertexMove> moves = findBetterPlaces(mesh, near);
   // From here on each move is the one that undoes it.
   std::vector<std::size_t> moved;
@@ -20,8 +22,10 @@ void restoreCreases(WorkingMesh& mesh, NearFaces& near) {
   };
   std::for_each(moves.begin(), moves.end(), carryOut);
   while (!moved.empty()) {
+    const std::vector<EdgeRef> faces = mesh.quadsAt(moved);
+    if (history != nullptr) history->record(mesh, faces);
     std::vector<std::uint32_t> corners;
-    for (const Conflict& c : near.findConflicts(mesh.quadsAt(moved)))
+    for (const Conflict& c : near.findConflicts(faces))
       forEachCorner(c, [&](std::uint32_t v) { corners.push_back(v); });
     sortUnique(corners);
     const auto undone = std::stable_partition(moves.begin(), moves.end(), [&](const VertexMove& m) {

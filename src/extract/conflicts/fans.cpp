@@ -130,7 +130,7 @@ void Fans::triangles(const EdgeRef& e, std::vector<Triangle>& out) const {
   }
 }
 
-std::size_t Fans::replaceQuads(const Monitor& monitor) {
+std::size_t Fans::replaceQuads(const Monitor& monitor, std::vector<FanPart>* parts) {
   std::vector<std::uint64_t> faces;
   std::vector<Triangle> fan;
   for (const auto& [edge, center] : mCenter) {
@@ -139,8 +139,10 @@ std::size_t Fans::replaceQuads(const Monitor& monitor) {
     fan.clear();
     triangles(edge, fan);
     mMesh.triangles.insert(mMesh.triangles.end(), fan.begin(), fan.end());
+    if (parts != nullptr) parts->push_back({edge.block, static_cast<std::uint32_t>(fan.size()), 0});
   }
   renumber();
+  if (parts != nullptr) countVertices(*parts);
   removeQuads(faces);
   return countPartedEdges(monitor);
 }
@@ -165,6 +167,17 @@ void Fans::renumber() {
   reorder(mMesh.positions);
   reorder(mMesh.normals);
   for (auto& [joined, vertex] : mFaceVertex) vertex = number[vertex - mFirstVertex];
+}
+
+void Fans::countVertices(std::vector<FanPart>& parts) const {
+  std::size_t t = 0;
+  std::uint32_t next = mFirstVertex;  // New vertices have their numbers in the order of the fans.
+  for (FanPart& part : parts) {
+    const std::uint32_t before = next;
+    for (const std::size_t end = t + part.triangles; t < end; ++t)
+      for (const std::uint32_t v : mMesh.triangles[t]) next = std::max(next, v + 1);
+    part.vertices = next - before;
+  }
 }
 
 /// \param faces sorted.

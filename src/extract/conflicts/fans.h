@@ -11,6 +11,13 @@
 
 namespace pdc::detail {
 
+/// What a fan has in a mesh.
+struct FanPart {
+  std::int32_t block;       ///< That of its lattice edge.
+  std::uint32_t triangles;  ///< One after the other.
+  std::uint32_t vertices;   ///< That no fan before it has, numbered one after the other.
+};
+
 /// Quads that are replaced by triangles about a new vertex where the surface crosses their lattice edge; and *split*
 /// cells, whose vertices are joined to those of the cells beside them through a new vertex in the common face, on the
 /// chord between the two crossings that the surface joins there.
@@ -37,8 +44,9 @@ class Fans {
   /// Takes out the quads that are fans, and appends the triangles of these by ascending edge. The new vertices get
   /// numbers in that order, so that a mesh does not depend on the order in which fans were made, and all arrays are in
   /// the order of blocks: the old vertices, the new ones, the quads and the triangles. \returns by how many edges that
-  /// lengthens the boundary of the mesh. \throws Cancelled.
-  std::size_t replaceQuads(const Monitor& monitor);
+  /// lengthens the boundary of the mesh. \param parts null, or where to note what each fan has, in their order.
+  /// \throws Cancelled.
+  std::size_t replaceQuads(const Monitor& monitor, std::vector<FanPart>* parts = nullptr);
 
   /// The number of a vertex appended to so many. \throws Error if 32 bits cannot hold it.
   [[nodiscard]] static std::uint32_t numberAfter(std::uint64_t vertices);
@@ -65,6 +73,8 @@ class Fans {
   [[nodiscard]] Vec3d crossing(const CellRef& c, int edge);
   std::uint32_t append(const Vec3d& position, const EdgeRef& at);
   void renumber();
+  /// \param parts with the numbers of triangles.
+  void countVertices(std::vector<FanPart>& parts) const;
   void removeQuads(const std::vector<std::uint64_t>& faces);
   [[nodiscard]] std::size_t countPartedEdges(const Monitor& monitor) const;
 
