@@ -21,6 +21,7 @@
 #include "commands/pictures/render_command.h"
 #include "commands/pictures/view_command.h"
 #include "commands/points/points_commands.h"
+#include "commands/slabs/slab_commands.h"
 #include "commands/smooth_command.h"
 #include "commands/subdivide_command.h"
 #include "commands/sweep_command.h"
@@ -53,6 +54,7 @@ class Commands {
     addThoseOfVolumes();
     addThoseOfMeshes();
     mPoints.emplace(app);
+    mSlabs.emplace(app);
     for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
       pdc::addOptionsFile(*command);
     // For those who make packages.
@@ -69,6 +71,7 @@ class Commands {
     for (const auto& [command, runIt] : mRuns)
       if (command->parsed()) return runIt();
     mPoints->run();
+    mSlabs->run();
     if (mManualCommand->parsed()) pdc::writeManual(mApp, mManualFolder);
     return kDone;
   }
@@ -144,6 +147,7 @@ class Commands {
   pdc::SubdivideRequest mSubdivide;
   pdc::SmoothRequest mSmooth;
   std::optional<pdc::PointsCommands> mPoints;
+  std::optional<pdc::SlabCommands> mSlabs;
   CLI::App* mManualCommand = nullptr;
   std::filesystem::path mManualFolder;
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "terminal/progress_bar.h"
 #include "terminal/shown_path.h"
 #include "terminal/warning.h"
+#include "tiles/contour_in_slabs.h"
 
 namespace pdc {
 namespace {
@@ -48,8 +50,7 @@ double fileSize(const MeshRequest& request, const ContourForecast& forecast) {
 }
 
 /// Refuses what will not fit into memory before the work begins, and tells of what takes long.
-void checkForecast(const MeshRequest& request, const Input& input, const MeshRun& run) {
-  const auto forecast = forecastContour(*input.source, run.options, {.stop = &interruptFlag()});
+void checkForecast(const MeshRequest& request, const std::optional<ContourForecast>& forecast, const MeshRun& run) {
   if (!forecast) return;
   detail::checkMemory(forecast->memory, forecast->vertices, run.options);
   constexpr double kMuch = 1e9;
@@ -84,7 +85,8 @@ ReadInput readAndShow(const MeshRequest& request) {
                              [&] { return readInput(request, {.progress = show, .stop = &interruptFlag()}); });
 }
 
-Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
+/// Notes what was read, and how it is contoured.
+void beginRun(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   const Input& input = read.input;
   run.secondsRead = read.seconds;
   if (input.refusedNoise > 0)
@@ -104,9 +106,12 @@ Mesh makeMesh(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
   if (request.adaptive)
     run.options.adaptive = request.adaptive->value * (request.adaptive->suffixed ? input.source->map().voxelSize() : 1);
   run.options.adaptiveScale = input.adaptiveScale;
+}
 
+Mesh makeMesh(const MeshRequest& request, const Input& input, const std::optional<ContourForecast>& forecast,
+              MeshRun& run) {
   detail::Stopwatch stopwatch;
-  checkForecast(request, input, run);
+  checkForecast(request, forecast, run);
   Mesh mesh;
   {
     ProgressBar bar(!request.quiet);
@@ -161,6 +166,7 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
     fmt::print("a mesh of {} triangles, {}; voxels of {:.4g}\n", run.mesh->triangles,
                run.mesh->openEdges == 0 ? "closed" : fmt::format("{} open edges", run.mesh->openEdges),
                run.mesh->voxelSize);
+  if (run.slabs > 1) fmt::print("contoured in {} slabs\n", run.slabs);
   if (run.planeOrigin == PlaneOrigin::kDistance)
     fmt::print("planes from distances beside creases; noise of the values {:.2g} voxels\n", run.valueNoise);
   if (run.origin != Vec3d{} && !request.doublePrecision)
@@ -175,7 +181,7 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
   if (run.contour.creasePatches > 0 && !run.options.adaptive)
     fmt::print("{:.2g} % of the vertices on creases\n",
                1e2 * static_cast<double>(run.contour.creasePatches) / static_cast<double>(run.vertices));
-  if (!run.options.sigmaNormal)
+  if (!run.options.sigmaNormal && run.slabs == 1)
     fmt::print("sigma_n from the data: median {:.2g}; noise of the normals {:.2g}\n", run.contour.medianSigmaNormal,
                run.contour.normalNoise);
   if (run.options.adaptive)
@@ -187,10 +193,17 @@ void printSummary(const MeshRequest& request, const MeshRun& run) {
              run.secondsContour, run.secondsWrite);
 }
 
-/// Contours what was read and writes the mesh.
-void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
-  detail::Stopwatch total;
-  const Mesh mesh = makeMesh(request, read, run);
+/// How the mesh is written, beside what is known of the input.
+MeshWriteOptions writeOptions(const MeshRequest& request, const MeshRun& run) {
+  return {.ascii = request.ascii,
+          .doublePrecision = request.doublePrecision,
+          .space = run.volume ? run.volume->space : "",
+          .unit = request.unit.empty() && run.volume ? run.volume->unit : request.unit,
+          .source = request.input.filename().string(),
+          .settings = request.settings};
+}
+
+void writeMesh(const MeshRequest& request, const Mesh& mesh, MeshRun& run) {
   run.vertices = mesh.positions.size();
   run.quads = mesh.quads.size();
   run.triangles = mesh.triangles.size();
@@ -200,18 +213,45 @@ void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun&
   if (!lost.empty())
     warn(run,
          fmt::format("{}: only {} files hold {}", shownPath(request.output), detail::kFormatsWithProperties, lost));
-
-  const std::string unit = request.unit.empty() && run.volume ? run.volume->unit : request.unit;
   detail::Stopwatch stopwatch;
-  run.bytesWritten = writeMeshFile(mesh, request.output,
-                                   {.ascii = request.ascii,
-                                    .doublePrecision = request.doublePrecision,
-                                    .space = run.volume ? run.volume->space : "",
-                                    .unit = unit,
-                                    .source = request.input.filename().string(),
-                                    .settings = request.settings},
-                                   request.quiet);
+  run.bytesWritten = writeMeshFile(mesh, request.output, writeOptions(request, run), request.quiet);
   run.secondsWrite = stopwatch.lap();
+}
+
+/// Contours and writes what is too large to be contoured as one.
+void makeInSlabs(const MeshRequest& request, const Input& input, MeshRun& run) {
+  detail::Stopwatch stopwatch;
+  ProgressBar bar(!request.quiet);
+  const auto show = [&bar](const char* stage, double share) { bar.update(stage, share); };
+  const SlabbedMesh made = contourInSlabs(input, run.options, request.output, writeOptions(request, run),
+                                          {.progress = show, .stop = &interruptFlag()});
+  run.slabs = made.slabs;
+  run.vertices = made.merged.vertices;
+  run.quads = made.merged.quads;
+  run.triangles = made.merged.triangles;
+  run.bytesWritten = made.merged.bytesWritten;
+  run.properties = propertiesJson(made.merged.properties);
+  run.origin = made.origin;
+  run.contour.blocks = made.merged.blocks;
+  run.contour.boundaryEdges = made.merged.boundaryEdges;
+  run.contour.multiVertexCells = made.merged.multiVertexCells;
+  run.contour.uncertified = made.merged.uncertified;
+  run.secondsContour = stopwatch.lap();
+}
+
+/// Contours what was read and writes the mesh.
+void contourAndWrite(const MeshRequest& request, const ReadInput& read, MeshRun& run) {
+  detail::Stopwatch total;
+  beginRun(request, read, run);
+  const auto forecast = forecastContour(*read.input.source, run.options, {.stop = &interruptFlag()});
+  bool inSlabs = false;
+  try {
+    writeMesh(request, makeMesh(request, read.input, forecast, run), run);
+  } catch (const detail::TooLarge&) {
+    if (!canBeInSlabs(request.output, run.options, forecast)) throw;
+    inSlabs = true;
+  }
+  if (inSlabs) makeInSlabs(request, read.input, run);
   run.secondsTotal = run.secondsRead + total.lap();
 }
 

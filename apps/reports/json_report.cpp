@@ -70,6 +70,7 @@ nlohmann::ordered_json toJson(const MeshRequest& request, const MeshRun& run) {
           {"quads", run.quads},
           {"triangles", run.triangles},
           {"boundary_edges", run.contour.boundaryEdges},
+          {"slabs", run.slabs},
           {"blocks", run.contour.blocks},
           {"crossings", run.contour.crossings},
           {"crossings_without_normal", run.contour.crossingsWithoutNormal},

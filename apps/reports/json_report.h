@@ -25,6 +25,7 @@ struct MeshRun {
   std::vector<GridStepReport> steps;     ///< See Input.
   std::optional<InputVolume> volume;     ///< See Input.
   std::size_t vertices = 0, quads = 0, triangles = 0;
+  std::size_t slabs = 1;  ///< Pieces it was contoured in; with several not all of `contour` is known.
   std::size_t bytesWritten = 0;
   Vec3d origin{};  ///< See Mesh::origin.
   nlohmann::ordered_json properties;

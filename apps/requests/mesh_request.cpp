@@ -289,20 +289,16 @@ void addAttribute(CLI::App& command, MeshRequest& request, const std::string& gr
       ->group(group);
 }
 
-void addMeshOptions(CLI::App& command, MeshRequest& request) {
-  command
-      .add_option(
-          "INPUT", request.input,
-          ".vdb, a volume (.nii.gz, .nrrd, .mha,\n.npy, ...), a scene (.yaml, .yml), or a mesh:\n.ply, .obj, .off, "
-          ".stl")
-      ->required()
-      ->type_name("");
-  command.add_option("OUTPUT", request.output, kWrittenMeshes)->required()->type_name("");
-  command
-      .add_option_function<std::string>(
-          "--frames", [&request](const std::string& text) { request.frames = parseFrames(text); },
-          "All of a sequence: INPUT and OUTPUT are patterns like\nsmoke.%04d.vdb; a report is a line per frame")
-      ->type_name("A-B[:STEP]");
+namespace {
+
+void addInput(CLI::App& command, MeshRequest& request) {
+  const auto kinds =
+      ".vdb, a volume (.nii.gz, .nrrd, .mha,\n.npy, ...), a scene (.yaml, .yml), or a mesh:\n.ply, .obj, .off, .stl";
+  command.add_option("INPUT", request.input, kinds)->required()->type_name("");
+}
+
+/// Declares what says how a mesh is made and written, and what is said meanwhile.
+void addSettings(CLI::App& command, MeshRequest& request) {
   addSurfaceOptions(command, request);
   addInputOptions(command, request);
   addGridSteps(command, request.steps, "For .vdb inputs and volumes, before all else, in this order");
@@ -331,6 +327,25 @@ void addMeshOptions(CLI::App& command, MeshRequest& request) {
       ->group(group);
   command.add_flag("--quiet", request.quiet, "No summary and no progress bar")->group(group);
   addThreads(command, request.threads)->group(group);
+}
+
+}  // namespace
+
+void addMeshOptions(CLI::App& command, MeshRequest& request) {
+  addInput(command, request);
+  command.add_option("OUTPUT", request.output, kWrittenMeshes)->required()->type_name("");
+  command
+      .add_option_function<std::string>(
+          "--frames", [&request](const std::string& text) { request.frames = parseFrames(text); },
+          "All of a sequence: INPUT and OUTPUT are patterns like\nsmoke.%04d.vdb; a report is a line per frame")
+      ->type_name("A-B[:STEP]");
+  addSettings(command, request);
+}
+
+void addPlanOptions(CLI::App& command, MeshRequest& request, std::filesystem::path& folder) {
+  addInput(command, request);
+  command.add_option("FOLDER", folder, "Where slabs are contoured; it is made")->required()->type_name("");
+  addSettings(command, request);
 }
 
 void checkMeshRequest(const MeshRequest& request) {

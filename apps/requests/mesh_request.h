@@ -33,8 +33,8 @@ struct MeshRequest {
   Placement placement = Placement::kCertified;
   std::optional<SuffixedLength> adaptive;
   bool triangles = false, open = false, normals = false, ascii = false;
-  std::string unit{};      ///< Of the output; empty for the input's.
-  std::string settings{};  ///< The options given, as text.
+  std::string unit{};           ///< Of the output; empty for the input's.
+  std::string settings{};       ///< The options given, as text.
   bool isoFromOtsu = false;     ///< True for --iso otsu.
   bool sigmaFromData = false;   ///< True for --sigma-n auto.
   std::optional<Vec3d> origin;  ///< --origin X,Y,Z.
@@ -63,6 +63,9 @@ struct MeshRequest {
 
 /// Declares the options of `pdc mesh`; they are stored in `request` when the line is parsed.
 void addMeshOptions(CLI::App& command, MeshRequest& request);
+
+/// Declares those of `pdc plan`: the same, but for a folder in place of the output.
+void addPlanOptions(CLI::App& command, MeshRequest& request, std::filesystem::path& folder);
 
 /// Declares --iso.
 CLI::Option* addIso(CLI::App& command, MeshRequest& request, const std::string& help);

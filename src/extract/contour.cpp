@@ -1,7 +1,6 @@
 #include "pdc/extract/contour.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "extract/topology/continuation.h"
 #include "extract/topology/surface.h"
 #include "extract/vertex_quadrics.h"
+#include "mesh/polygons/split_quads.h"
 #include "parallel/with_threads.h"
 #include "sample/relocated_source.h"
 
@@ -34,20 +34,6 @@ void checkOptions(const ContourOptions& options, const ContourReport* report) {
     throw std::invalid_argument(fmt::format("contour: the origin is ({}, {}, {}), must be finite", o->x, o->y, o->z));
   if (options.threads < 0)
     throw std::invalid_argument(fmt::format("contour: threads is {}, must be at least 0", options.threads));
-}
-
-/// Quads to triangles, before the triangles that are there.
-void splitQuads(Mesh& mesh) {
-  const std::size_t quads = mesh.quads.size();
-  Buffer<Triangle> triangles(2 * quads + mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, quads, [&](std::size_t i) {
-    const Quad& q = mesh.quads[i];
-    triangles[2 * i] = {q[0], q[1], q[2]};
-    triangles[2 * i + 1] = {q[0], q[2], q[3]};
-  });
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin() + static_cast<std::ptrdiff_t>(2 * quads));
-  mesh.triangles.swap(triangles);
-  Buffer<Quad>().swap(mesh.quads);
 }
 
 Mesh run(const HermiteSource& world, const ContourOptions& options, ContourReport* report, const Monitor& monitor) {
@@ -74,7 +60,7 @@ Mesh run(const HermiteSource& world, const ContourOptions& options, ContourRepor
     adapted = detail::adapt(mesh, options, place.step, monitor);
     mesh = std::move(adapted.mesh);
   }
-  if (options.triangles) splitQuads(mesh);
+  if (options.triangles) detail::splitQuads(mesh);
   if (report != nullptr)
     *report = {.blocks = blocks.coords.size(),
                .crossings = counts.crossings,

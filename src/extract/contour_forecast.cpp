@@ -10,11 +10,10 @@ std::optional<ContourForecast> forecastContour(const HermiteSource& source, cons
   return detail::withThreads(options.threads, [&]() -> std::optional<ContourForecast> {
     const std::optional<SurfaceForecast> surface = source.forecast(monitor);
     if (!surface) return std::nullopt;
-    constexpr double kBlock = 800;  // Signs, topology and what is noted of each block.
-    return ContourForecast{
-        .vertices = surface->crossings,
-        .faces = surface->crossings * (options.triangles ? 2 : 1),
-        .memory = detail::contourMemory(surface->crossings, options) + surface->memory + kBlock * surface->blocks};
+    return ContourForecast{.vertices = surface->crossings,
+                           .faces = surface->crossings * (options.triangles ? 2 : 1),
+                           .memory = detail::contourMemory(surface->crossings, options) + surface->memory +
+                                     detail::kBlockMemory * surface->blocks};
   });
 }
 

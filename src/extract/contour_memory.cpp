@@ -1,11 +1,11 @@
 #include "extract/contour_memory.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 
 #include "parallel/machine_memory.h"
-#include "pdc/error.h"
 
 namespace pdc::detail {
 
@@ -17,15 +17,28 @@ double contourMemory(double vertices, const ContourOptions& options) {
   return perVertex * vertices;
 }
 
+void giveBackMemory() {
+  releaseMemory();
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 void checkMemory(double bytes, double vertices, const ContourOptions& options) {
   constexpr double kAlwaysThere = 32e6;  // Small meshes need not ask the system.
   if (options.maxMemory == 0 && bytes <= kAlwaysThere) return;
-  const auto inUse = static_cast<double>(memoryInUse());
-  const auto available = static_cast<double>(availableMemory());
-  const double machine = available > 0 ? inUse + available : bytes + inUse;
-  const double limit = options.maxMemory > 0 ? std::min(static_cast<double>(options.maxMemory), machine) : machine;
-  if (bytes + inUse <= limit) return;
-  throw Error(
+  double inUse = 0, machine = 0, limit = 0;
+  const auto fits = [&] {
+    inUse = static_cast<double>(memoryInUse());
+    const auto available = static_cast<double>(availableMemory());
+    machine = available > 0 ? inUse + available : bytes + inUse;
+    limit = options.maxMemory > 0 ? std::min(static_cast<double>(options.maxMemory), machine) : machine;
+    return bytes + inUse <= limit;
+  };
+  if (fits()) return;
+  giveBackMemory();
+  if (fits()) return;
+  throw TooLarge(
       fmt::format("about {} vertices take about {} of memory, more than the {} that {}; a coarser lattice takes less",
                   countText(vertices), bytesText(bytes + inUse), bytesText(limit),
                   limit < machine ? "are allowed" : "the machine has"));

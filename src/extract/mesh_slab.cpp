@@ -16,22 +16,6 @@
 namespace pdc::detail {
 namespace {
 
-SurfaceBlocks blocksOf(const SurfaceBlocks& all, LayerRange layers) {
-  const auto lower = [&](int x) {
-    return static_cast<std::size_t>(
-        std::partition_point(all.coords.begin(), all.coords.end(), [x](const Coord& b) { return b[0] < x; }) -
-        all.coords.begin());
-  };
-  const std::size_t begin = lower(layers.begin), end = lower(layers.end);
-  SurfaceBlocks part;
-  part.coords.assign(all.coords.begin() + static_cast<std::ptrdiff_t>(begin),
-                     all.coords.begin() + static_cast<std::ptrdiff_t>(end));
-  part.signs.resize(end - begin);
-  std::copy_n(all.signs.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, part.signs.begin());
-  part.open = all.open || end - begin < all.coords.size();
-  return part;
-}
-
 /// Where layers begin in the arrays of a contoured part.
 class LayerStarts {
  public:
@@ -165,7 +149,7 @@ class SlabContour {
   [[nodiscard]] MeshSlab run(const SurfaceBlocks& all, const Monitor& monitor) const {
     const auto [begin, end] = mRequest.layers;
     const int halo = mRequest.halo;
-    const SurfaceBlocks blocks = blocksOf(all, {begin - halo, end + halo});
+    const SurfaceBlocks blocks = blocksOfLayers(all, {begin - halo, end + halo});
     const Topology topology = buildTopology(blocks, monitor);
     checkContinuation(blocks, topology);
     checkVertexCount(topology.vertexCount);
@@ -212,6 +196,22 @@ class SlabContour {
 };
 
 }  // namespace
+
+SurfaceBlocks blocksOfLayers(const SurfaceBlocks& all, LayerRange layers) {
+  const auto lower = [&](int x) {
+    return static_cast<std::size_t>(
+        std::partition_point(all.coords.begin(), all.coords.end(), [x](const Coord& b) { return b[0] < x; }) -
+        all.coords.begin());
+  };
+  const std::size_t begin = lower(layers.begin), end = lower(layers.end);
+  SurfaceBlocks part;
+  part.coords.assign(all.coords.begin() + static_cast<std::ptrdiff_t>(begin),
+                     all.coords.begin() + static_cast<std::ptrdiff_t>(end));
+  part.signs.resize(end - begin);
+  std::copy_n(all.signs.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, part.signs.begin());
+  part.open = all.open || end - begin < all.coords.size();
+  return part;
+}
 
 MeshSlab contourSlab(const HermiteSource& source, const SurfaceBlocks& blocks, const SlabRequest& request,
                      const ContourOptions& options, const Monitor& monitor) {

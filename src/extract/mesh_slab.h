@@ -47,6 +47,9 @@ struct MeshSlab {
   std::uint64_t blocks = 0, multiVertexCells = 0, boundaryEdges = 0, uncertified = 0;
 };
 
+/// The blocks that lie in some layers. \param all sorted.
+[[nodiscard]] SurfaceBlocks blocksOfLayers(const SurfaceBlocks& all, LayerRange layers);
+
 /// Contours a slab with the layers about it, and leaves these out. The same as contour() of the whole as far as the
 /// histories of neighbouring slabs agree (see CertifyHistory). \param source all of it. \param blocks those of the
 /// source that lie in the slab and its halo at least, sorted. \param options without `adaptive`, `quadrics` and

@@ -5,12 +5,12 @@
 #include <random>
 
 #include "extract/certify/uncertified_mesh.h"
+#include "extract/turned_layer.h"
 #include "pdc/field/noise.h"
 #include "pdc/field/operators.h"
 #include "pdc/field/primitives.h"
 #include "pdc/sample/implicit/field_source.h"
 #include "pdc/sample/sampled_source.h"
-#include "sample/forwarding_source.h"
 
 namespace pdc::detail {
 namespace {
@@ -109,21 +109,6 @@ TEST(MeshSlab, SlabsOfNoiseBelowTheVoxelWithItsFansAreTheWhole) {
   EXPECT_GT(report.fans, 20U);
   expectTheWhole(source, 1);
 }
-
-/// Another source whose normals are turned in one layer of blocks.
-class TurnedLayer final : public ForwardingSource {
- public:
-  TurnedLayer(const HermiteSource& source, int layer) : ForwardingSource(source), mLayer(layer) {}
-
-  void fillHermite(const SurfaceBlock& block, HermiteBlock& hermite) const override {
-    ForwardingSource::fillHermite(block, hermite);
-    if (block.coord[0] != mLayer) return;
-    for (int i = 0; i < block.edges.size(); ++i) std::swap(hermite.nx[i], hermite.ny[i]);
-  }
-
- private:
-  int mLayer;
-};
 
 TEST(MeshSlab, WhatDiffersBesideACutShowsInTheHistories) {
   const FieldSource slow = rough(2.0 / 64, 1.5);  // Eight layers.

@@ -5,7 +5,6 @@ set -euo pipefail
 cd "$1"
 
 # By folder. A floor's own files stand above all of its rooms, or below them where it is a seam that they share.
-# Names that no folder has yet are reserved for what comes: points (reconstruction) above extract, tile above io.
 declare -A floor_of=(
   [parallel]=0 [math]=1 [mesh]=2 [rays]=3 [simplify]=3 [smooth]=3 [subdivide]=3 [field]=4 [sample]=5 [extract]=6 [render]=6
   [grid]=7 [points]=7 [io]=8 [study]=9 [tile]=9
@@ -22,8 +21,8 @@ declare -A room_of=(
   [field]=0 [field/primitives]=1 [field/operators]=1
   [io/file]=0 [io/deflate]=1 [io/parse]=1 [io/openmesh]=2 [io/mesh]=3 [io/vdb]=1 [io/volume]=2 [io/scene]=4 [io/points]=4 [io]=5
   [study/view]=0 [study]=1
-  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/commands]=4 [apps/commands/points]=4 [apps/commands/pictures]=4
-  [apps]=5
+  [apps/terminal]=0 [apps/files]=1 [apps/requests]=2 [apps/reports]=3 [apps/tiles]=4 [apps/commands]=5 [apps/commands/points]=5 [apps/commands/pictures]=5 [apps/commands/slabs]=5
+  [apps]=6
   [python/inputs]=0 [python/groups]=1 [python]=2
 )
 
@@ -37,7 +36,7 @@ find_place() {
     floor=$ground
     room=ground
     return
-  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == reports || "$top" == commands ]]; then
+  elif [[ "$top" == apps || "$top" == terminal || "$top" == files || "$top" == requests || "$top" == reports || "$top" == tiles || "$top" == commands ]]; then
     floor=$apps
     [[ "$top" == apps ]] || room=apps/$folder
   elif [[ "$top" == python || "$top" == inputs || "$top" == groups ]]; then

@@ -1,16 +1,10 @@
 #include "extract/certify/certify_history.h"
 
+#include <array>
 #include <bit>
 
 namespace pdc::detail {
 namespace {
-
-/// The finaliser of splitmix64.
-std::uint64_t mixed(std::uint64_t h) {
-  h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9;
-  h = (h ^ h >> 27) * 0x94D049BB133111EB;
-  return h ^ h >> 31;
-}
 
 std::uint64_t word(float a, float b) {
   return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
@@ -18,7 +12,7 @@ std::uint64_t word(float a, float b) {
 
 /// All that the next round may look at.
 struct FaceState {
-  std::array<std::uint64_t, 24> words;
+  std::array<std::uint64_t, 32> words;
   std::size_t size = 0;
 
   void add(std::uint64_t w) { words[size++] = w; }
@@ -40,7 +34,8 @@ FaceState stateOf(const WorkingMesh& mesh, const EdgeRef& e, std::uint64_t round
     if (i < 0) continue;
     const VertexState& v = mesh.vertices()[static_cast<std::size_t>(i)];
     state.add(std::uint64_t{v.retractions} << 8 | v.creaseMoves | std::uint64_t{v.unresolvedConflicts} << 16);
-    state.add(word(v.retractedFrom.x, v.retractedFrom.y) ^ mixed(std::bit_cast<std::uint32_t>(v.retractedFrom.z)));
+    state.add(word(v.retractedFrom.x, v.retractedFrom.y));
+    state.add(word(v.retractedFrom.z, 0));
   }
   return state;
 }
@@ -48,11 +43,8 @@ FaceState stateOf(const WorkingMesh& mesh, const EdgeRef& e, std::uint64_t round
 }  // namespace
 
 void LayerHash::add(std::span<const std::uint64_t> words) {
-  // Two chains that start apart, so that both would have to collide.
-  std::array<std::uint64_t, 2> h{0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F};
-  for (const std::uint64_t w : words)
-    for (std::uint64_t& chain : h) chain = mixed(chain + w) + 0x9E3779B97F4A7C15;
-  for (int i = 0; i < 2; ++i) sum[i] += h[i];
+  const Hash128 hash = hashOf(words);
+  for (std::size_t i = 0; i < hash.size(); ++i) sum[i] += hash[i];
 }
 
 void CertifyHistory::record(const WorkingMesh& mesh, std::span<const EdgeRef> faces) {

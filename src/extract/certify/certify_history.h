@@ -1,17 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "extract/certify/working_mesh.h"
+#include "math/hash128.h"
 
 namespace pdc::detail {
 
 /// A sum of hashes, 128 bits of them: equal for equal sets, whatever their order.
 struct LayerHash {
-  std::array<std::uint64_t, 2> sum{};
+  Hash128 sum{};
 
   void add(std::span<const std::uint64_t> words);
   friend bool operator==(const LayerHash&, const LayerHash&) = default;

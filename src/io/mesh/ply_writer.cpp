@@ -36,7 +36,7 @@ bool areCountsBytes(const Polygons& polygons) {
   return true;
 }
 
-std::string header(const Mesh& mesh, const MeshWriteOptions& options) {
+std::string header(const Mesh& mesh, const PlyCounts& counts, const MeshWriteOptions& options) {
   std::string properties;
   for (const VertexProperty& property : mesh.properties)
     for (const std::string& name : plyColumnNames(property))
@@ -48,9 +48,9 @@ std::string header(const Mesh& mesh, const MeshWriteOptions& options) {
       "element face {}\nproperty list {} {} vertex_indices\nend_header\n",
       options.ascii ? "ascii" : "binary_little_endian", kOwnComment,
       options.doublePrecision ? "" : originLine(mesh, "comment "),
-      commentLine(frameText(options.space, options.unit), "comment "), mesh.positions.size(), real, real, real,
-      mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties,
-      faceCount(mesh), areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(mesh.positions.size()));
+      commentLine(frameText(options.space, options.unit), "comment "), counts.vertices, real, real, real,
+      mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", properties, counts.faces,
+      areCountsBytes(mesh.polygons) ? "uchar" : "uint", plyIndexType(counts.vertices));
 }
 
 /// An array with `stride` bytes for each vertex.
@@ -206,24 +206,37 @@ const char* plyIndexType(std::size_t vertices) {
   return vertices <= kIntIndices ? "int" : "uint";
 }
 
-void writePly(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
+void writePlyHeader(const Mesh& mesh, const PlyCounts& counts, ByteOutput& file, const MeshWriteOptions& options) {
   checkPlyNames(mesh);
-  const Buffer<Vec3d> world = options.doublePrecision ? worldPositions(mesh) : Buffer<Vec3d>();
-  const std::string text = header(mesh, options);
+  const std::string text = header(mesh, counts, options);
   file.write(text.data(), text.size());
+}
+
+void writePlyVertices(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
+  const Buffer<Vec3d> world = options.doublePrecision ? worldPositions(mesh) : Buffer<Vec3d>();
   if (options.ascii) {
     writeVerticesAscii(mesh, world, file);
+  } else {
+    writeVertices(mesh, world, file);
+  }
+}
+
+void writePlyFaces(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
+  if (options.ascii) {
     writeFacesAscii(mesh.quads, file);
     writeFacesAscii(mesh.triangles, file);
     writeFacesAscii(mesh.polygons, file);
-    return;
-  }
-  writeVertices(mesh, world, file);
-  if (areCountsBytes(mesh.polygons)) {
+  } else if (areCountsBytes(mesh.polygons)) {
     writeAllFaces<std::uint8_t>(mesh, file);
   } else {
     writeAllFaces<std::uint32_t>(mesh, file);
   }
+}
+
+void writePly(const Mesh& mesh, ByteOutput& file, const MeshWriteOptions& options) {
+  writePlyHeader(mesh, {mesh.positions.size(), faceCount(mesh)}, file, options);
+  writePlyVertices(mesh, file, options);
+  writePlyFaces(mesh, file, options);
 }
 
 }  // namespace pdc::detail
